@@ -1,0 +1,176 @@
+"""Column names of tables: which SAMPLE value a name means, and in which unit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from operator import itemgetter
+
+from imugui.formats.families import Axes
+from imugui.formats.values import RAD_PER_DEG
+from imugui.samples import GRAVITY
+
+IMU = ("gx", "gy", "gz", "ax", "ay", "az", "mx", "my", "mz", "temp_c", "status")
+POSITION = ("lat", "lon", "alt", "speed", "course_deg")
+SLOTS = ("t", *IMU, *POSITION)
+"""The values of a row, in the order of SAMPLE."""
+REQUIRED = ("ax", "ay", "az", "gx", "gy", "gz")
+MAG = ("mx", "my", "mz")
+STATUS = SLOTS.index("status")
+
+STEMS = {
+    "a": ("a", "acc", "accel", "accelerometer", "acceleration"),
+    "g": ("g", "gyr", "gyro", "gyroscope", "w", "omega", "angularvelocity", "angularrate", "rotationrate"),
+    "m": ("m", "mag", "magn", "magnetometer", "magneticfield", "h"),
+}
+NAMES: dict[str, str] = {
+    **{stem + axis: kind + axis for kind, stems in STEMS.items() for stem in stems for axis in "xyz"},
+    **{axis + stem: kind + axis for kind, stems in STEMS.items() for stem in stems[1:4] for axis in "xyz"},
+    **dict.fromkeys(("t", "time", "timestamp", "seconds", "millis", "micros"), "t"),
+    **dict.fromkeys(("temp", "temperature", "tempc"), "temp_c"),
+    **dict.fromkeys(("status", "button"), "status"),
+    **dict.fromkeys(("lat", "latitude"), "lat"),
+    **dict.fromkeys(("lon", "lng", "long", "longitude"), "lon"),
+    **dict.fromkeys(("alt", "altitude"), "alt"),
+    **dict.fromkeys(("speed", "groundspeed"), "speed"),
+    **dict.fromkeys(("course", "courseoverground", "cog"), "course_deg"),
+}
+"""Names, without blanks, points, dashes and underscores, in lower case."""
+
+_DEG = {"deg": 1.0, "degrees": 1.0}
+UNITS: dict[str, dict[str, float]] = {
+    "a": {"g": GRAVITY, "mg": GRAVITY / 1000, "m/s2": 1.0, "mps2": 1.0, "ms2": 1.0, "ms-2": 1.0, "m/s/s": 1.0},
+    "g": {
+        **dict.fromkeys(("rad/s", "rads", "radps", "rps"), 1.0),
+        **dict.fromkeys(("deg/s", "degs", "degps", "dps"), RAD_PER_DEG),
+        "mdps": RAD_PER_DEG / 1000,
+    },
+    "m": {"ut": 1.0, "g": 100.0, "gauss": 100.0, "mg": 0.1, "mgauss": 0.1, "nt": 0.001, "mt": 1000.0, "t": 1e6},
+    "t": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9},
+    "temp_c": {"c": 1.0, "degc": 1.0, "celsius": 1.0},
+    "status": {},
+    "lat": _DEG,
+    "lon": _DEG,
+    "alt": {"m": 1.0},
+    "speed": {"m/s": 1.0, "mps": 1.0, "ms": 1.0, "km/h": 1 / 3.6, "kmh": 1 / 3.6, "kn": 0.514444, "knots": 0.514444},
+    "course_deg": _DEG,
+}
+"""What one unit is worth in SAMPLE's."""
+NAMED_UNITS = {"seconds": "s", "millis": "ms", "micros": "us", "tempc": "c"}
+
+_FACTOR = re.compile(r"(.*?)([*/])\s*([0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)")
+_BRACKETS = re.compile(r"(.*?)\s*[(\[{]\s*(.*?)\s*[)\]}]")
+_SIGNS = str.maketrans({"²": "2", "^": "", "µ": "u", "μ": "u", "°": "deg", " ": "", "·": "", "*": ""})
+
+
+@dataclass(frozen=True)
+class Column:
+    """What one column holds: a slot, and what its number must be multiplied by (None: its unit is unknown)."""
+
+    slot: str
+    factor: float | None
+    unit: str  # as written, "" when none was given
+
+
+def read_name(name: str) -> Column | None:
+    """The column a name means, such as ``acc_x_mps2``, ``Gyroscope Y (deg/s)`` or ``ax_g/16384``; None if unknown.
+
+    A unit stands in brackets or after the last underscore; ``/number`` or ``*number`` after it scales raw counts.
+    """
+    text = name.strip().strip("\"'").strip()
+    scale = 1.0
+    if scaling := _FACTOR.fullmatch(text):
+        text = scaling[1].strip()
+        scale = float(scaling[3]) if scaling[2] == "*" else 1 / float(scaling[3]) if float(scaling[3]) else 1.0
+    stem, unit = text, ""
+    if brackets := _BRACKETS.fullmatch(text):
+        stem, unit = brackets[1], brackets[2]
+    elif _key(text) not in NAMES:
+        stem, _, unit = text.rpartition("_")
+    key = _key(stem)
+    if key not in NAMES:
+        return None
+    unit = unit or NAMED_UNITS.get(key, "")
+    slot = NAMES[key]
+    units = UNITS.get(slot) or UNITS.get(slot[0], {})
+    factor = units.get(unit.lower().translate(_SIGNS)) if unit else 1.0
+    return Column(slot, None if factor is None else factor * scale, unit)
+
+
+def _key(name: str) -> str:
+    return re.sub(r"[\s_.\-]", "", name.lower())
+
+
+@dataclass(frozen=True)
+class Table:
+    """How the lines of one table become rows."""
+
+    delimiter: bytes
+    width: int  # columns
+    shape: bytes  # a full line without its numbers
+    indices: tuple[int, ...]  # for each of SLOTS its column; ``width`` when there is none (status: one more)
+    factors: tuple[float, ...]  # for each column, () when all are 1
+    used: tuple[str, ...]
+    words: str  # for the user
+    problem: str  # why no row can be made, "" when it can
+
+    @cached_property
+    def pick(self) -> Callable[[Sequence[float]], tuple[float, ...]]:
+        """From a line's numbers, and NaN and NO_STATUS after them, to SLOTS."""
+        return itemgetter(*self.indices)
+
+    def without_time(self) -> Table:
+        """The same table when its time column turns out to hold no numbers."""
+        used = tuple(slot for slot in self.used if slot != "t")
+        return replace(self, indices=(self.width, *self.indices[1:]), used=used, words=f"{self.words}, time not used")
+
+
+def table_from(names: Sequence[str], delimiter: bytes, mag_axes: Axes) -> Table:
+    """The table that a row of column names describes; its problem says what is missing."""
+    found: dict[str, tuple[int, Column]] = {}
+    for index, name in enumerate(names):
+        column = read_name(name)
+        if column and (column.slot not in found or (column.unit and not found[column.slot][1].unit)):
+            found[column.slot] = index, column
+    problem = _problem(found)
+    if not all(axis in found for axis in MAG):
+        found = {slot: place for slot, place in found.items() if slot not in MAG}
+    sources = {slot: index for slot, (index, _) in found.items()}
+    factors = [1.0] * len(names)
+    for index, column in found.values():
+        factors[index] = column.factor or 1.0
+    if "mx" in sources:
+        wire = [sources[axis] for axis in MAG]
+        for axis, (i, sign) in zip(MAG, mag_axes, strict=True):
+            sources[axis] = wire[i]
+            factors[wire[i]] *= sign
+    absent = {"status": len(names) + 1}
+    return Table(
+        delimiter,
+        len(names),
+        delimiter * (len(names) - 1),
+        tuple(sources.get(slot, absent.get(slot, len(names))) for slot in SLOTS),
+        tuple(factors) if any(factor != 1.0 for factor in factors) else (),
+        tuple(found),
+        _words(found),
+        problem,
+    )
+
+
+def _problem(found: dict[str, tuple[int, Column]]) -> str:
+    missing = [slot for slot in REQUIRED if slot not in found]
+    if missing:
+        return f"no column for {', '.join(missing)}"
+    unknown = [f"{slot} in {column.unit!r}" for slot, (_, column) in found.items() if column.factor is None]
+    return f"unknown unit: {', '.join(unknown)}" if unknown else ""
+
+
+def _words(found: dict[str, tuple[int, Column]]) -> str:
+    """What was understood: the columns and the units of the three sensors."""
+    units = []
+    for slot, si in (("t", "s"), ("ax", "m/s2"), ("gx", "rad/s"), ("mx", "uT")):
+        if slot in found:
+            units.append(found[slot][1].unit or f"{si} (not said)")
+    return f"columns {' '.join(found)}" + (f" in {', '.join(units)}" if units else "")

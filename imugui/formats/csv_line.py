@@ -1,0 +1,217 @@
+"""csv-line: lines of numbers separated by comma, tab, semicolon or blanks, with a header line or named columns.
+
+The header may carry units in brackets or after the last underscore (columns.py); without units SI is taken and
+``seen`` says so. ``#`` and ``%`` lines are comments. An empty value is NaN. A decimal comma is accepted only where
+semicolons separate the columns; elsewhere it is refused with a reason.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from operator import mul
+
+from imugui.formats.base import Encoder, Options
+from imugui.formats.columns import POSITION, STATUS, Table, table_from
+from imugui.formats.families import family
+from imugui.formats.lines import LineDecoder, readable
+from imugui.formats.values import (
+    DIGITS,
+    LETTERS,
+    NAN,
+    NUMBER_CHARS,
+    GravityWatch,
+    how_many,
+    number,
+)
+from imugui.samples import NO_STATUS, Rows
+
+FAMILY = "aligned"
+RATE_HZ = 100.0
+DELIMITERS = (b",", b";", b"\t", b" ")
+EXPONENT_NUMBER_CHARS = NUMBER_CHARS + b"eE"
+PADDED_NUMBER_CHARS = EXPONENT_NUMBER_CHARS + b" "
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+LONGEST_HEADER = 1000  # bytes
+HEADER_NAMES = 3  # so many known names make a line a header
+NO_HEADER = "numbers without a header line: name the columns and units once"
+
+_DATE = re.compile(rb"\d+[-:/]\d+[-:/]\d+.*")
+_DECIMAL_COMMA = re.compile(rb"[+-]?\d+,\d+(?:[eE][+-]?\d+)?")
+
+
+def split(line: bytes, delimiter: bytes) -> list[bytes]:
+    """The tokens of a line; any run of blanks is one delimiter when the delimiter is a blank."""
+    return line.split() if delimiter == b" " else line.split(delimiter)
+
+
+class CsvLineDecoder(LineDecoder):
+    """Reads ``csv-line`` tables."""
+
+    SEPARATORS = b",;\t "
+
+    def __init__(self, options: Options) -> None:
+        super().__init__()
+        self._mag_axes = family(options.family, FAMILY).mag_axes
+        self._named = options.columns
+        self._delimiters = (options.delimiter.encode(),) if options.delimiter else DELIMITERS
+        self._table: Table | None = None
+        self._number_chars = PADDED_NUMBER_CHARS
+        self._watch = GravityWatch()
+        self.seen = "no header line yet"
+        self.rate_hz = RATE_HZ
+
+    def _line(self, line: bytes) -> None:
+        table = self._table
+        if table is None or table.problem or line.translate(None, self._number_chars) != table.shape:
+            self._unusual(line)
+            return
+        try:
+            values = [float(token) if token else NAN for token in line.split(table.delimiter)]
+        except ValueError:
+            self._unusual(line)
+            return
+        self._accept(table, values, line)
+
+    def _accept(self, table: Table, values: list[float], line: bytes) -> None:
+        if table.factors:
+            values = list(map(mul, values, table.factors))
+        values += (NAN, NO_STATUS)
+        place = table.indices[STATUS]
+        status = values[place]
+        if abs(status) > 32767:
+            self._bad("impossible status", line)
+            return
+        values[place] = int(status) if status == status else NO_STATUS
+        t, *row = table.pick(values)
+        if not self.has_time:
+            t = self._t
+        elif not abs(t) < 1e18:
+            self._bad("no time", line)
+            return
+        reason = self._emit(t, row)
+        if reason:
+            self._bad(reason, line)
+        elif not self._watch.trusted and self._watch.update(*row[3:6]):
+            self.seen = f"{table.words} {self._watch.doubt}".strip()
+            self._note(self.seen)
+
+    def _unusual(self, line: bytes) -> None:
+        """Headers, comments, lines with nan or quotes, and everything that is not data."""
+        line = line.removeprefix(BYTE_ORDER_MARK)
+        if line.lstrip().startswith((b"#", b"%")):
+            if self._table or not self._header(line.lstrip().lstrip(b"#% "), whole=True):
+                self._chatter(line)
+            return
+        if self._table is None and self._named:
+            self._use_named(line)
+        values, reason = self._values(self._table, line) if self._table else (None, self._no_table())
+        if values is not None and self._table:
+            self._accept(self._table, values, line)
+        elif not self._header(line):
+            is_data = self._not_data(line, reason)
+            if is_data and self._table is None:
+                self.seen = self._no_table()
+
+    def _no_table(self) -> str:
+        return f"{len(self._named)} columns are named, the lines have another number" if self._named else NO_HEADER
+
+    def _values(self, table: Table, line: bytes) -> tuple[list[float] | None, str]:
+        """The numbers of a line, or None and why there are none."""
+        if table.problem:
+            return None, table.problem
+        tokens = [token.strip().strip(b'"') for token in split(line, table.delimiter)]
+        if table.delimiter == b";":
+            tokens = [token.replace(b",", b".") if _DECIMAL_COMMA.fullmatch(token) else token for token in tokens]
+        if len(tokens) == table.width + 1 and not tokens[-1]:
+            tokens.pop()
+        if len(tokens) != table.width:
+            return None, f"{len(tokens)} values for {table.width} columns{_comma_hint(table, tokens)}"
+        fresh = not self._packed and not self.counts.messages
+        if fresh and self.has_time and _DATE.fullmatch(tokens[table.indices[0]]):
+            table = self._table = table.without_time()
+            self.has_time, self.seen = False, table.words
+            self._note(f"the time column holds dates, the time of arrival is used: {self._text(line)}")
+        values = [number(token) if token else NAN for token in tokens]
+        if any(value is None and index in table.indices for index, value in enumerate(values)):
+            return None, f"malformed{_comma_hint(table, tokens)}"
+        return [NAN if value is None else value for value in values], ""
+
+    def _header(self, line: bytes, whole: bool = False) -> bool:
+        """Whether the line names columns; if so the table is taken over (``whole``: only when it can be used)."""
+        letters = how_many(line, LETTERS)
+        if len(line) > LONGEST_HEADER or letters < HEADER_NAMES or 2 * letters < how_many(line, DIGITS):
+            return False
+        text = readable(line) or line.decode("latin-1")
+        whole |= readable(line) is None  # units such as a degree sign of another encoding
+        tables = [self._table_of(text, delimiter) for delimiter in self._delimiters]
+        best = max(tables, key=lambda table: len(table.used))
+        few = len(best.used) < max(HEADER_NAMES, best.width / 3)  # a sentence may hold a name or two
+        if best.problem and (whole or few):
+            return False
+        self._chatter(line)
+        if not self._named:
+            self._adopt(best)
+        return True
+
+    def _table_of(self, text: str, delimiter: bytes) -> Table:
+        names = text.split() if delimiter == b" " else text.split(delimiter.decode())
+        return table_from(names, delimiter, self._mag_axes)
+
+    def _use_named(self, line: bytes) -> None:
+        """Take the user's columns into use with the delimiter that cuts this line into as many values."""
+        for delimiter in self._delimiters:
+            if len(split(line, delimiter)) == len(self._named):
+                self._adopt(table_from(self._named, delimiter, self._mag_axes))
+                return
+
+    def _adopt(self, table: Table) -> None:
+        if self._table == table:
+            return
+        if self._table:
+            self._note("the columns changed")
+        self._table = table
+        self._number_chars = EXPONENT_NUMBER_CHARS if table.delimiter == b" " else PADDED_NUMBER_CHARS
+        self._watch = GravityWatch()
+        self.has_time = "t" in table.used
+        self.seen = f"{table.words}: {table.problem}" if table.problem else table.words
+        self._note(self.seen)
+
+
+def _comma_hint(table: Table, tokens: Sequence[bytes]) -> str:
+    many = table.delimiter == b"," and len(tokens) == 2 * table.width
+    if many or any(_DECIMAL_COMMA.fullmatch(token) for token in tokens):
+        return " (decimal commas? export with points, or with semicolons between the columns)"
+    return ""
+
+
+class CsvLineEncoder(Encoder):
+    """Writes DESIGN's sample table, every number with all its digits; positions as soon as a row has one."""
+
+    IMU = ("t", "ax", "ay", "az", "gx", "gy", "gz", "mx", "my", "mz", "temp_c", "status")
+
+    def __init__(self, with_position: bool = False) -> None:
+        self._with_position = with_position
+
+    def preamble(self) -> bytes:
+        """The header line."""
+        names = self.IMU + POSITION if self._with_position else self.IMU
+        return (",".join(names) + "\r\n").encode()
+
+    def encode(self, rows: Rows) -> bytes:
+        """One line for each row; a new header line where the first position appears."""
+        header = b""
+        if not self._with_position and (rows["lat"] == rows["lat"]).any():
+            self._with_position = True
+            header = self.preamble()
+        status = ["" if value == NO_STATUS else str(value) for value in rows["status"].tolist()]
+        imu = [rows["t"], *rows["acc"].T, *rows["gyr"].T, *rows["mag"].T, rows["temp_c"]]
+        columns = [_texts(column) for column in imu] + [status]
+        if self._with_position:
+            columns += [_texts(rows[name]) for name in POSITION]
+        return header + "".join(",".join(words) + "\r\n" for words in zip(*columns, strict=True)).encode()
+
+
+def _texts(column: Rows) -> list[str]:
+    """Numbers with all their digits, so that they come back the same; empty for NaN."""
+    return [repr(value) if value == value else "" for value in column.tolist()]
