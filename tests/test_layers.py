@@ -17,7 +17,9 @@ NO_QT_BELOW = 3
 RANKS = {
     **dict.fromkeys(("__init__", "samples", "ring", "paths", "fields"), 0),
     "fusion": 1,
-    **dict.fromkeys(("formats", "recording", "settings", "calibration", "guidance", "targeting", "simulation"), 2),
+    **dict.fromkeys(
+        ("formats", "recording", "settings", "signals", "calibration", "guidance", "targeting", "simulation"), 2
+    ),
     "workers": NO_QT_BELOW,
     "views": 4,
     **dict.fromkeys(("app", "cli", "__main__"), 5),

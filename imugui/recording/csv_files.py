@@ -1,0 +1,95 @@
+"""Files of rows: the sample CSV and the attitude CSV of imugui.
+
+Both begin with ``# key: value`` lines, then a header; missing values are empty. They open in a spreadsheet, in MATLAB
+and in pandas (``comment="#"``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from imugui.formats import FORMATS, Decoder, Options
+from imugui.formats.detect import detect_file
+from imugui.fusion.attitude import euler
+from imugui.samples import Rows
+
+ATTITUDE_COLUMNS = "t,qw,qx,qy,qz,roll_deg,pitch_deg,yaw_deg,rest,disturbed"
+BLOCK = 1 << 20
+
+
+class UnreadableError(Exception):
+    """A file that holds no samples; the message says why and what to do."""
+
+
+@dataclass(frozen=True)
+class Capture:
+    """What a file holds: SAMPLE rows, shape (n,), with their times in s, and how they were found."""
+
+    rows: Rows
+    format: str
+    decoder: Decoder
+
+
+def read_samples(path: Path, name: str = "auto", options: Options | None = None, rate_hz: float = 0.0) -> Capture:
+    """All samples of a raw capture or sample CSV, in the named format or in the one found.
+
+    A file without times gets ``t`` = k / rate_hz (0: the usual rate of its format). Raises UnreadableError and OSError.
+    """
+    options = options or Options()
+    name = _format_of(path, name, options)
+    decoder = FORMATS[name].decoder(options)
+    blocks = []
+    with path.open("rb") as stream:
+        while chunk := stream.read(BLOCK):
+            blocks.append(decoder.feed(chunk, 0.0))
+    blocks.append(decoder.flush(0.0))
+    rows = np.concatenate(blocks)
+    if len(rows) == 0:
+        raise UnreadableError(f"{path}: no sample found as {name}. {decoder.seen}")
+    if not decoder.has_time:
+        rows["t"] = np.arange(len(rows)) / (rate_hz or decoder.rate_hz)
+    rows["t_arrival"] = np.nan
+    return Capture(rows, name, decoder)
+
+
+def _format_of(path: Path, name: str, options: Options) -> str:
+    if name != "auto":
+        return name
+    found = detect_file(path, options)
+    if not found.format:
+        raise UnreadableError(f"{path}: {found.sentence}")
+    return found.format
+
+
+def write_attitude(path: Path, rows: Rows, metadata: Mapping[str, object]) -> None:
+    """Write ATTITUDE rows, shape (n,), as the attitude CSV; raises OSError."""
+    yaw, pitch, roll = np.rad2deg(euler(rows["quat"])).T
+    values = np.column_stack((rows["t"], rows["quat"], roll, pitch, yaw, rows["rest"], rows["disturbed"]))
+    pattern = "%.6f,%.9f,%.9f,%.9f,%.9f,%.4f,%.4f,%.4f,%d,%d\n"
+    _write(path, metadata, ATTITUDE_COLUMNS, (pattern % tuple(row) for row in values.tolist()))
+
+
+def write_samples(path: Path, rows: Rows, metadata: Mapping[str, object]) -> None:
+    """Write SAMPLE rows, shape (n,), as the sample CSV; raises OSError."""
+    encoder = FORMATS["csv-line"].encoder()
+    header, body = encoder.preamble().decode("ascii"), encoder.encode(rows).decode("ascii")
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        stream.writelines(_comments(metadata))
+        stream.write(header + body)
+
+
+def _write(path: Path, metadata: Mapping[str, object], header: str, lines: Iterable[str]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        stream.writelines(_comments(metadata))
+        stream.write(header + "\n")
+        stream.writelines(lines)
+
+
+def _comments(metadata: Mapping[str, object]) -> Iterable[str]:
+    for key, value in metadata.items():
+        text = " ".join(str(value).split())
+        yield f"# {key}: {text}\n"

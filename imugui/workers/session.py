@@ -1,0 +1,265 @@
+"""Session: owns the rings and the workers; the only object of this package that views talk to."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, Signal, Slot
+
+from imugui.formats import Options
+from imugui.fusion import DEFAULT_FILTER, FILTERS
+from imugui.fusion.pipeline import Pipeline
+from imugui.fusion.timing import Meter
+from imugui.ring import Ring
+from imugui.samples import ATTITUDE, SAMPLE
+from imugui.simulation.motions import MOTIONS
+from imugui.workers import TRANSPORTS
+from imugui.workers.fusion_worker import AgeCounts, FusionWorker
+from imugui.workers.reader import Link, Reader
+from imugui.workers.serial_transport import Port, list_ports
+from imugui.workers.simulator_transport import SimulatorTransport
+from imugui.workers.status import Status, mag_trust
+from imugui.workers.transport import Source
+from imugui.workers.verdict import Facts, State, Verdict, judge, oddity
+
+__all__ = ["MOTION_TITLES", "Options", "Port", "Session", "Source", "State", "Status"]
+
+RING_ROWS = 1 << 17  # two minutes at 1 kHz
+LOOK_ROWS = 256  # newest rows that the status is judged by
+
+MOTION_TITLES = {name: motion.title for name, motion in MOTIONS.items()}
+"""Motions of the virtual board, by name."""
+
+
+class Session(QObject):
+    """One run of the program with its connection. All methods are called in the main thread."""
+
+    state_changed = Signal(object)  # State
+    message = Signal(str, str)  # tone "info", "warn" or "error"; a sentence
+
+    def __init__(self, filter_name: str = DEFAULT_FILTER, params: Any = None, use_mag: bool = True) -> None:
+        super().__init__()
+        self.samples = Ring(SAMPLE, RING_ROWS)
+        self.attitude = Ring(ATTITUDE, RING_ROWS)
+        name = filter_name if filter_name in FILTERS else DEFAULT_FILTER
+        self._fusion = FusionWorker(self.samples, self.attitude, Pipeline(name, params, use_mag=use_mag))
+        self._fusion.failed.connect(self._defect)
+        self._reader: Reader | None = None
+        self._transport: Any = None
+        self._meter = Meter()
+        self._first_row = 0
+        self._last_state = State.IDLE
+
+    # connection
+
+    def connect_to(self, source: Source) -> None:
+        """Leave the present source and read this one; problems come as a state and in words, never as exceptions."""
+        self.disconnect_source()
+        self._transport = TRANSPORTS[source.transport](source)
+        self._first_row = self.samples.count
+        self._meter = Meter()
+        self.reset_ages()
+        self._fusion.missed_rows = 0
+        self._fusion.replace(Pipeline(self.filter_name, self.filter_params, use_mag=self.use_mag), carry_on=False)
+        self._reader = Reader(source, self._transport, self.samples)
+        self._reader.changed.connect(self._link_changed)
+        self._reader.failed.connect(self._defect)
+        self._reader.start()
+        if not self._fusion.isRunning():
+            self._fusion.start()
+        self._announce()
+
+    def disconnect_source(self) -> None:
+        """Stop reading; the rings keep what was received."""
+        if self._reader is not None:
+            reader, self._reader, self._transport = self._reader, None, None
+            reader.changed.disconnect(self._link_changed)
+            reader.stop()
+        self._announce()
+
+    def close(self) -> None:
+        """Stop every thread."""
+        self.disconnect_source()
+        if self._fusion.isRunning():
+            self._fusion.stop()
+
+    @property
+    def source(self) -> Source | None:
+        """What is connected, or None."""
+        return self._reader.source if self._reader else None
+
+    def serial_ports(self) -> list[Port]:
+        """Serial ports of this computer."""
+        return list_ports()
+
+    def link_log(self) -> list[tuple[float, str, str]]:
+        """(host time s, kind, text) of everything on the link that was not data, oldest first."""
+        return self._reader.intake.log_entries() if self._reader else []
+
+    # the virtual board
+
+    @property
+    def hand_turned(self) -> bool:
+        """True while the virtual board waits to be turned by the mouse."""
+        return isinstance(self._transport, SimulatorTransport) and self._transport.hand is not None
+
+    def turn_board(self, dx_rad: float, dy_rad: float, viewer: NDArray[np.float64]) -> None:
+        """Turn the virtual board as a mouse drags it: right by dx, down by dy, rad.
+
+        ``viewer`` (4,) is the rotation from the viewer's axes (x right, y up, z to the eye) to the earth's.
+        """
+        hand = self._transport.hand if isinstance(self._transport, SimulatorTransport) else None
+        if hand is not None:
+            hand.viewer = viewer
+            hand.turn(dx_rad, dy_rad)
+
+    # fusion
+
+    @property
+    def filter_name(self) -> str:
+        return self._fusion.pipeline.filter_name
+
+    @property
+    def filter_params(self) -> Any:
+        return self._fusion.pipeline.params
+
+    @property
+    def use_mag(self) -> bool:
+        return self._fusion.pipeline.use_mag
+
+    def set_filter(self, name: str, params: Any = None, use_mag: bool = True) -> None:
+        """Replace the pipeline whole; the new filter starts from the last attitude and keeps the origin."""
+        old = self._fusion.pipeline
+        self._fusion.replace(Pipeline(name, params, old.correction, use_mag, old.origin), carry_on=True)
+
+    @property
+    def has_origin(self) -> bool:
+        return self._fusion.pipeline.origin is not None
+
+    def set_origin(self) -> bool:
+        """Make the newest attitude the origin; False when there is none."""
+        newest = self.attitude.last(1)
+        if len(newest) == 0 or self.status().state is not State.STREAMING:
+            return False
+        self._fusion.pipeline.set_origin(tuple(float(value) for value in newest["quat"][0]))
+        return True
+
+    def clear_origin(self) -> None:
+        self._fusion.pipeline.set_origin(None)
+
+    @property
+    def mag_updates(self) -> int:
+        """New magnetometer measurements that reached the filter since it was set."""
+        return self._fusion.pipeline.mag_updates
+
+    def age_quantiles(self) -> dict[str, float]:
+        """{"p50", "p95", "p99"} of arrival of bytes to attitude published, ms."""
+        return self._fusion.ages.quantiles()
+
+    def reset_ages(self) -> None:
+        """Count ages anew."""
+        self._fusion.ages = AgeCounts()
+
+    # status
+
+    def status(self) -> Status:
+        """A snapshot; cheap enough for ten a second."""
+        now = time.perf_counter()
+        verdict = self._verdict(now)
+        self._note(verdict.state)
+        reader = self._reader
+        if reader is None:
+            return Status(verdict.state, verdict.sentence, filter=self.filter_name)
+        fused = self.attitude.last(min(LOOK_ROWS, self.attitude.count))
+        trust, norm = mag_trust(fused, self.use_mag, calibrated=self._fusion.pipeline.correction.has_mag)
+        self._meter.add(now, self.samples.count)
+        counts, clock = reader.intake.counts, reader.intake.clock
+        newest = self.samples.last(1)
+        return Status(
+            state=verdict.state,
+            sentence=verdict.sentence,
+            source=reader.source.address,
+            format=reader.intake.format,
+            seen=reader.intake.seen,
+            baud=reader.intake.baud,
+            rate_hz=self._rate(now, verdict.state),
+            jitter_ms=clock.jitter_s * 1e3,
+            messages=counts.messages,
+            bad_messages=counts.bad_messages,
+            samples=self.samples.count - self._first_row,
+            gaps=clock.gaps,
+            gap_s=clock.gap_s,
+            missed_rows=self._fusion.missed_rows,
+            age_ms=(now - float(newest["t_arrival"][0])) * 1e3 if len(newest) else math.nan,
+            has_mag=trust != "none",
+            mag_trust=trust,
+            mag_norm_ut=norm,
+            temp_c=float(newest["temp_c"][0]) if len(newest) else math.nan,
+            filter=self.filter_name,
+        )
+
+    @property
+    def rate_hz(self) -> float:
+        """Samples a second as fitted over the connection (0.1 % after 10 s), in the board's own time; 0 if unknown."""
+        period = self._reader.intake.clock.period if self._reader else math.nan
+        return 1.0 / period if period > 0.0 else 0.0
+
+    def _rate(self, now: float, state: State) -> float:
+        """The fitted rate while samples come; 0 when they do not."""
+        if state not in (State.STREAMING, State.IMPOSSIBLE):
+            return 0.0
+        return self.rate_hz or self._meter.rate_hz(now)
+
+    def _verdict(self, now: float) -> Verdict:
+        reader = self._reader
+        if reader is None:
+            return judge(Facts(now, "idle"))
+        return judge(self._facts(now, reader, reader.link))
+
+    def _facts(self, now: float, reader: Reader, link: Link) -> Facts:
+        new = min(LOOK_ROWS, self.samples.count - self._first_row)
+        return Facts(
+            now=now,
+            phase=link.phase,
+            where=reader.source.address,
+            problem=link.problem.sentence if link.problem else "",
+            opened=link.opened,
+            byte_t=link.byte_t,
+            sample_t=link.sample_t,
+            period_s=reader.intake.clock.period,
+            format=reader.intake.format,
+            baud=reader.intake.baud,
+            findings=reader.intake.seen,
+            odd=oddity(self.samples.last(new)),
+            missing_s=link.missing_s,
+            breaks=link.breaks,
+        )
+
+    # from the workers
+
+    @Slot()
+    def _link_changed(self) -> None:
+        if self._reader is None:
+            return
+        link = self._reader.link
+        if link.phase in ("lost", "failed") and link.problem is not None:
+            self.message.emit("error", link.problem.sentence)
+        elif link.phase == "open" and link.breaks:
+            self.message.emit("info", f"{self._reader.source.address} is back.")
+        self._announce()
+
+    @Slot(str)
+    def _defect(self, text: str) -> None:
+        self.message.emit("error", f"A defect in imugui: {text}. Data keep coming in; please report it.")
+
+    def _announce(self) -> None:
+        self._note(self._verdict(time.perf_counter()).state)
+
+    def _note(self, state: State) -> None:
+        if state is not self._last_state:
+            self._last_state = state
+            self.state_changed.emit(state)

@@ -1,0 +1,54 @@
+"""Status: one snapshot of everything the connection bar, the status line and reports show."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from imugui.samples import Rows
+from imugui.workers.verdict import State
+
+
+@dataclass(frozen=True)
+class Status:
+    """Numbers that do not apply are NaN, words that do not apply are empty."""
+
+    state: State = State.IDLE
+    sentence: str = ""
+    source: str = ""
+    format: str = ""
+    seen: str = ""
+    baud: int = 0
+    rate_hz: float = 0.0
+    jitter_ms: float = math.nan
+    messages: int = 0
+    bad_messages: int = 0
+    samples: int = 0
+    gaps: int = 0
+    gap_s: float = 0.0
+    missed_rows: int = 0
+    age_ms: float = math.nan
+    has_mag: bool = False
+    mag_trust: str = "none"  # "none", "off", "disturbed", "uncalibrated", "good"
+    mag_norm_ut: float = math.nan
+    temp_c: float = math.nan
+    profile: str = ""
+    filter: str = ""
+
+
+def mag_trust(rows: Rows, use_mag: bool, calibrated: bool) -> tuple[str, float]:
+    """(word, median field in uT) from the newest ATTITUDE rows, shape (n,).
+
+    A field that is merely quiet may still be off by tens of degrees: it is "good" only with a calibration.
+    """
+    mag = rows["mag"][np.isfinite(rows["mag"]).all(axis=1)] if len(rows) else np.empty((0, 3))
+    if len(mag) == 0:
+        return "none", math.nan
+    norm = float(np.median(np.linalg.norm(mag, axis=1)))
+    if not use_mag:
+        return "off", norm
+    if float(np.mean(rows["disturbed"])) > 0.5:
+        return "disturbed", norm
+    return ("good" if calibrated else "uncalibrated"), norm
