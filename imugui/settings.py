@@ -30,7 +30,6 @@ class Settings:
         tip="Axes of the earth for the angles on screen. Inside, and in files, imugui always uses ENU",
     )
     decimals: int = field(1, "Decimals of angles", low=0, high=2, tip="A cheap board cannot support more than one")
-    grid: bool = field(True, "Earth grid", tip="Draw the ground under the board")
     transport: str = field("simulator", "Last kind of source")
     address: str = field("aiming", "Last source")
     format: str = field("auto", "Last format")

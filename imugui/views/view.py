@@ -1,0 +1,38 @@
+"""View: the base of every page."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QWidget
+
+from imugui.views.settings_store import SettingsStore
+from imugui.workers.session import Port, Session
+
+
+class View(QWidget):
+    """A page of the window. Only the page in front is refreshed; hidden pages do no work."""
+
+    title = ""
+    icon = ""  # a file of resources/icons
+    tip = ""
+    at_foot = False  # True: its button stands at the foot of the rail
+
+    wanted = Signal(str, str)  # transport, address: the user asks this page for a source; an empty address: any file
+
+    def __init__(self, session: Session, settings_store: SettingsStore) -> None:
+        super().__init__()
+        self.session = session
+        self.settings_store = settings_store
+        self.setAccessibleName(self.title)
+
+    def refresh(self) -> None:
+        """Paint the newest data; called 60 times a second while in front."""
+
+    def slow_refresh(self) -> None:
+        """Bring words and controls up to date; called 8 times a second while in front."""
+
+    def show_ports(self, ports: list[Port]) -> None:
+        """The serial ports of this computer have changed."""
+
+    def origin_moved(self) -> None:
+        """The user has just set the origin."""
