@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import hypothesis
@@ -21,6 +23,17 @@ hypothesis.settings.load_profile("imugui")
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 DATA = REPOSITORY.parent / "shared" / "data"
+
+
+@pytest.fixture(autouse=True)
+def no_garbage_in_threads(request: pytest.FixtureRequest) -> Iterator[None]:
+    """As in the program: widgets are never freed by a worker's thread. Tests of Qt collect in between."""
+    if not {"views", "workers"} & set(request.path.parts):
+        yield
+        return
+    gc.disable()
+    yield
+    gc.enable()
 
 
 @pytest.fixture(scope="session")

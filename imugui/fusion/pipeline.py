@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from imugui.samples import ATTITUDE, Rows, empty_rows
 
 LARGEST_RATE = 1e3  # rad/s; no gyroscope reads more
 LARGEST_FORCE = 1e4  # m/s2
+LARGEST_FIELD = 1e6  # uT, to square without overflow
 EARTH_FIELD = (20.0, 70.0)  # uT; the earth's is between 22 and 67, any other field is not the earth's alone
 FED_FIELD = (5.0, 200.0)  # uT; outside this a field says nothing about north
 
@@ -84,6 +86,48 @@ class Pipeline:
             self.filter.start(other.filter.quat, heading_known=other.use_mag and other.mag_updates > 0)
 
     @np.errstate(over="ignore", invalid="ignore")  # what a wild number gives is refused below
+    def restart(self) -> None:
+        """Begin again from the next sample's accelerometer and field: what comes does not follow what was."""
+        self.filter = FILTERS[self.filter_name](self.params)
+        self._t, self._raw_mag, self._strange = np.nan, np.full(3, np.nan), False
+        self.restarts += 1
+
+    def settings(self) -> dict[str, Any]:
+        """All that was chosen, as plain values: filter, parameters, correction, magnetometer, origin."""
+        return {
+            "filter": self.filter_name,
+            "params": asdict(self.params),
+            "correction": asdict(self.correction),
+            "use_mag": self.use_mag,
+            "origin": self.origin,
+        }
+
+    def state(self) -> dict[str, Any]:
+        """All that the next step depends on, as plain values; ``from_state`` continues from it bit for bit."""
+        kept = {"t": float(self._t), "raw_mag": self._raw_mag.tolist(), "strange": self._strange}
+        return {"settings": self.settings(), "state": self.filter.state(), **kept}
+
+    @classmethod
+    def from_settings(cls, settings: dict[str, Any]) -> Pipeline:
+        """A fresh pipeline with these settings; KeyError, TypeError or ValueError when they are none."""
+        params = FILTERS[settings["filter"]].Params(**settings["params"])
+        correction = Correction(**settings["correction"])
+        pipeline = cls(settings["filter"], params, correction, bool(settings["use_mag"]))
+        if settings["origin"] is not None:
+            w, x, y, z = map(float, settings["origin"])  # not normalised again, which would change the last digit
+            pipeline.origin = (w, x, y, z)
+        return pipeline
+
+    @classmethod
+    def from_state(cls, state: dict[str, Any]) -> Pipeline:
+        """A pipeline that continues from a ``state``; KeyError, TypeError or ValueError when it is none."""
+        pipeline = cls.from_settings(state["settings"])
+        pipeline.filter.restore(state["state"])
+        pipeline._t = np.float64(state["t"])
+        pipeline._raw_mag = np.array(state["raw_mag"], float).reshape(3)
+        pipeline._strange = bool(state["strange"])
+        return pipeline
+
     def step(self, rows: Rows) -> Rows:
         """Feed a block of SAMPLE rows, shape (n,); returns n ATTITUDE rows, ``t_publish`` left open (NaN)."""
         corrected = self.correction.apply(rows)
@@ -94,25 +138,25 @@ class Pipeline:
             return out
         good = _usable(corrected)
         self.skipped += len(rows) - int(good.sum())
-        fresh, fed = self._fields(rows["mag"], corrected["mag"], good)
+        norm = length(np.clip(corrected["mag"], -LARGEST_FIELD, LARGEST_FIELD))
+        fresh, fed = self._fields(rows["mag"], norm, good)
         self.mag_refused += int((fresh & ~fed).sum()) if self.use_mag else 0
         out["mag_used"] = fed & self.use_mag
         self.mag_updates += int(out["mag_used"].sum())
         self._fuse(corrected, good, out)
-        out["disturbed"] |= self._not_earths(length(corrected["mag"]))
+        out["disturbed"] |= self._not_earths(norm)
         out["gyr"] = corrected["gyr"] - out["bias"]
         origin = self.origin
         out["local"] = out["quat"] if origin is None else multiply(conjugate(origin), out["quat"])
         return out
 
-    def _fields(self, raw: NDArray[np.float64], mag: NDArray[np.float64], good: Flags) -> tuple[Flags, Flags]:
-        """Which rows carry a new field measurement, and which of these are fed."""
+    def _fields(self, raw: NDArray[np.float64], norm: NDArray[np.float64], good: Flags) -> tuple[Flags, Flags]:
+        """Which rows carry a new field measurement, and which of these (norms in uT) are fed."""
         seen = np.concatenate((self._raw_mag[None], raw[good]))
         fresh = good.copy()
         # compared with the last row fed: what came new in a skipped row is still new in the next
         fresh[good] = (seen[1:] != seen[:-1]).any(axis=1) & np.isfinite(seen[1:]).all(axis=1)
         self._raw_mag = seen[-1]
-        norm = length(mag)
         return fresh, fresh & (norm >= FED_FIELD[0]) & (norm <= FED_FIELD[1])
 
     def _not_earths(self, norm: NDArray[np.float64]) -> Flags:

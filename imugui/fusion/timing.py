@@ -11,6 +11,7 @@ Both take one block per arrival: all rows that one chunk of bytes completed, wit
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +55,15 @@ class LineFit:
         self._nn = fade * self._nn + step_n * (n - self._n)
         self._nt = fade * self._nt + step_n * (t - self._t)
 
+    def state(self) -> list[float]:
+        """Everything, as plain numbers."""
+        return [self.weight, self.span_s, self.arrivals, self._n, self._t, self._nn, self._nt, self._last_t]
+
+    def restore(self, state: list[float]) -> None:
+        """Continue from a ``state``."""
+        self.weight, self.span_s, arrivals, self._n, self._t, self._nn, self._nt, self._last_t = state
+        self.arrivals = int(arrivals)
+
     @property
     def settled(self) -> bool:
         return self.span_s >= SETTLE_S and self.arrivals >= SETTLE_ARRIVALS and self._nn > 0.0 and self._nt > 0.0
@@ -87,6 +97,21 @@ class ArrivalClock:
     def period(self) -> float:
         """Seconds per sample; NaN until known."""
         return self._fit.period
+
+    def state(self) -> dict[str, Any]:
+        """Everything that the next stamp depends on, as plain values."""
+        late = [self._late_since, self._late_least, self._late_count]
+        return {"fit": self._fit.state(), "n": self._n, "t": self._t, "jitter": self.jitter_s} | {
+            "late": late,
+            "shifts": list(self._shifts),
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a ``state``, bit for bit."""
+        self._fit.restore(state["fit"])
+        self._n, self._t, self.jitter_s = state["n"], state["t"], state["jitter"]
+        self._late_since, self._late_least, count = state["late"]
+        self._late_count, self._shifts = int(count), list(state["shifts"])
 
     def stamp(self, rows: Rows) -> None:
         """Write ``rows["t"]`` for one arrival's rows, shape (n,), from their common ``t_arrival``; in place."""
@@ -183,7 +208,8 @@ WRAPS_S = (2**16 * 1e-3, 2**24 * 1e-6, 2**32 * 1e-6, 2**32 * 1e-3)
 class DeviceClock:
     """The board's own time, unwrapped and shifted so that its first sample lies at its arrival."""
 
-    def __init__(self) -> None:
+    def __init__(self, anchored: bool = True) -> None:
+        """Not ``anchored``: a recording's times are kept as they are, digit for digit."""
         self.gaps = 0
         self.gap_s = 0.0
         self.jitter_s = 0.0
@@ -191,6 +217,15 @@ class DeviceClock:
         self._raw = math.nan
         self._t = math.nan
         self._offset = 0.0
+        self._anchored = anchored
+
+    def state(self) -> dict[str, Any]:
+        """Everything that the next stamp depends on, as plain values."""
+        return {"raw": self._raw, "t": self._t, "offset": self._offset, "period": self.period}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from a ``state``, bit for bit."""
+        self._raw, self._t, self._offset, self.period = (state[key] for key in ("raw", "t", "offset", "period"))
 
     def stamp(self, rows: Rows) -> None:
         """Turn ``rows["t"]`` from the board's time into continuous host-based time, s; in place."""
@@ -201,7 +236,7 @@ class DeviceClock:
         if math.isnan(raw):
             raw = self._raw + self.period
         if math.isnan(self._raw):
-            self._offset = 0.0 if math.isnan(arrival) else arrival - raw
+            self._offset = arrival - raw if self._anchored and not math.isnan(arrival) else 0.0
         else:
             self._follow(raw, arrival)
         t = raw + self._offset

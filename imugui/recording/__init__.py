@@ -1,4 +1,4 @@
-"""Files of samples and attitudes."""
+"""Files of samples and attitudes, and recordings."""
 
 from __future__ import annotations
 
@@ -10,5 +10,19 @@ from imugui.recording.csv_files import (
     write_attitude,
     write_samples,
 )
+from imugui.recording.events import Event
+from imugui.recording.folder import SUFFIX, Recording, is_recording, read_recording
 
-__all__ = ["ATTITUDE_COLUMNS", "Capture", "UnreadableError", "read_samples", "write_attitude", "write_samples"]
+__all__ = [
+    "ATTITUDE_COLUMNS",
+    "SUFFIX",
+    "Capture",
+    "Event",
+    "Recording",
+    "UnreadableError",
+    "is_recording",
+    "read_recording",
+    "read_samples",
+    "write_attitude",
+    "write_samples",
+]

@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import time
+from collections import deque
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from imugui.fusion.pipeline import Pipeline
+from imugui.recording.events import Event
 from imugui.ring import Ring
+from imugui.samples import Rows
+from imugui.workers.recorder import Tap
 from imugui.workers.worker import Worker
 
 TICK_S = 1.0 / 200.0
 BIN_MS = 0.1
 BINS = 20_000  # ages up to 2 s
+NOW = -1
+
+Action = Callable[[int], None]
 
 
 class AgeCounts:
@@ -39,24 +48,69 @@ _SHARES = {"p50": 0.50, "p95": 0.95, "p99": 0.99}
 
 
 class FusionWorker(Worker):
-    """Pulls from the samples ring, pushes to the attitude ring."""
+    """Pulls from the samples ring, pushes to the attitude ring, one row for each sample.
+
+    Whatever changes the fusion is done by its own thread between two samples, and is noted with the sample's number:
+    so a recording can be computed again exactly.
+    """
 
     def __init__(self, samples: Ring, attitude: Ring, pipeline: Pipeline) -> None:
         super().__init__()
-        self.pipeline = pipeline  # the newest one asked for; ``replace`` assigns it
-        self._running = pipeline
-        self._carry_on = False
+        self.pipeline = pipeline  # the newest one asked for
         self.ages = AgeCounts()
         self.missed_rows = 0
+        self.tap: Tap | None = None
+        self._running = pipeline
+        self._actions: deque[tuple[int, Action]] = deque()
         self._samples = samples
         self._attitude = attitude
         self._count = samples.count
         self._due = time.perf_counter()
 
-    def replace(self, pipeline: Pipeline, carry_on: bool) -> None:
-        """Use this pipeline from the next tick on; ``carry_on``: from the old one's last attitude, with its origin."""
-        self._carry_on = carry_on
+    def at(self, sample: int, action: Action) -> None:
+        """Call ``action`` just before the sample of this number (NOW: the next) is fused; numbers must not fall."""
+        self._actions.append((sample, action))
+
+    def replace(self, pipeline: Pipeline, carry_on: bool, sample: int = NOW) -> None:
+        """Use this pipeline from that sample on; ``carry_on``: from the old one's last attitude, with its origin."""
         self.pipeline = pipeline
+
+        def exchange(number: int) -> None:
+            if carry_on:
+                pipeline.continue_from(self._running)
+            self._running = pipeline
+            self._note("filter", number, pipeline.filter_name, {"carry_on": carry_on, "pipeline": pipeline.settings()})
+
+        self.at(sample, exchange)
+
+    def set_origin(self, quat: tuple[float, ...] | None, sample: int = NOW) -> None:
+        """Make ``quat`` the zero of the shown attitude, or clear it."""
+
+        def move(number: int) -> None:
+            self._running.set_origin(quat)
+            self._note("origin", number, "set" if quat else "cleared", {"quat": quat})
+
+        self.at(sample, move)
+
+    def restart(self, sample: int) -> None:
+        """Begin again from the accelerometer at that sample: what comes does not follow what was."""
+        self.at(sample, lambda _: self._running.restart())
+
+    def begin_tap(self, tap: Tap, sample: int, clock: dict[str, Any]) -> None:
+        """Start a recording at that sample, noting what filter and clock know."""
+
+        def begin(number: int) -> None:
+            tap.first_sample, tap.first_attitude = number, self._attitude.count
+            self.tap = tap
+            self._note("start", number, "", {"pipeline": self._running.state(), "clock": clock})
+            tap.ready.set()
+
+        self.at(sample, begin)
+
+    @property
+    def done(self) -> int:
+        """How many samples of all time were taken in."""
+        return self._count
 
     def step(self) -> None:
         self._due = max(self._due + TICK_S, time.perf_counter() - TICK_S)
@@ -65,10 +119,19 @@ class FusionWorker(Worker):
 
     def drain(self) -> None:
         """Everything that is new, now."""
-        rows, self._count, missed = self._samples.since(self._count)
+        rows, count, missed = self._samples.since(self._count)
         self.missed_rows += missed
-        if self.pipeline is not self._running:
-            self._exchange()
+        first, at = count - len(rows), 0
+        while self._actions and max(self._actions[0][0], first + at) <= count:
+            number, action = self._actions.popleft()
+            cut = max(number - first, at)
+            self._fuse(rows[at:cut])
+            at = cut
+            action(first + at)
+        self._fuse(rows[at:])
+        self._count = count
+
+    def _fuse(self, rows: Rows) -> None:
         if len(rows) == 0:
             return
         fused = self._running.step(rows)
@@ -77,8 +140,8 @@ class FusionWorker(Worker):
         self._attitude.push(fused)
         self.ages.add(now - rows["t_arrival"])
 
-    def _exchange(self) -> None:
-        pipeline = self.pipeline
-        if self._carry_on:
-            pipeline.continue_from(self._running)
-        self._running = pipeline
+    def _note(self, kind: str, number: int, text: str, data: dict[str, Any]) -> None:
+        if self.tap is not None:
+            newest = self._attitude.last(1)
+            t = float(newest["t"][0]) if len(newest) else float("nan")
+            self.tap.events.append(Event(kind, t, number - self.tap.first_sample, text, data))

@@ -14,6 +14,8 @@ from imugui.samples import SAMPLE, Rows
 from imugui.workers.transport import Source
 
 NO_BAUD = (0,)
+HEAD = 1 << 13
+"""Bytes kept from the start of a connection: a decoder that reads them decides as this one did."""
 
 
 class Intake:
@@ -29,7 +31,9 @@ class Intake:
         self._decoder: Decoder | None = None
         self._search: BaudSearch | None = None
         self._findings = ""
+        self.head = b""
         self._timed = False  # rows come with their own time
+        self._kept = False  # the times of a file are kept as they are
         self._clock_chosen = False
 
     @property
@@ -39,7 +43,10 @@ class Intake:
 
     def log_entries(self) -> list[tuple[float, str, str]]:
         """(host time s, kind, text) of what was not data, oldest first."""
-        return self._log.entries()
+        entries = self._log.entries()
+        if self._log.dropped:
+            entries.insert(0, (entries[0][0], "note", f"{self._log.dropped} older entries are no longer kept"))
+        return entries
 
     def opened(self, transport: Any, t: float) -> None:
         """The link was opened, or opened again, at host time t (s)."""
@@ -58,14 +65,20 @@ class Intake:
         if not isinstance(data, bytes):
             rows = self._finished(data, t)
         elif self._decoder is not None:
+            self.head += data[: HEAD - len(self.head)]
             rows = self._decoder.feed(data, t)
         elif self._search is not None:
+            self.head += data[: HEAD - len(self.head)]
             self._search.feed(data, t)
             rows = self._found(self._search)
         else:
             rows = np.empty(0, SAMPLE)
         self._stamp(rows)
         return rows
+
+    def restart_clock(self) -> None:
+        """What comes next does not follow in time what came before."""
+        self._clock_chosen = False
 
     def tick(self, transport: Any, t: float) -> None:
         """Time has passed: follow the search to its next baud rate, and begin it again when it found nothing."""
@@ -78,6 +91,7 @@ class Intake:
             self._search = BaudSearch(self._bauds(), t, self._source.options, formats=self._names())
         if self._search.baud not in (transport.baud, 0):
             transport.set_baud(self._search.baud)
+            self.head = b""
 
     def _begin_search(self, transport: Any, t: float) -> None:
         self._search = BaudSearch(self._bauds(), t, self._source.options, formats=self._names())
@@ -121,7 +135,7 @@ class Intake:
     def _play(self, capture: Any) -> None:
         """A file that was decoded when it was opened: its rows carry time."""
         self._adopt(capture.format, capture.decoder)
-        self._timed = True
+        self._timed = self._kept = True
 
     def _finished(self, rows: Rows, t: float) -> Rows:
         """Rows from a file or from the virtual board: stamped with their arrival, with their own clock."""
@@ -136,7 +150,7 @@ class Intake:
     def _stamp(self, rows: Rows) -> None:
         if len(rows) and not self._clock_chosen:
             timed = self._timed or (self._decoder is not None and self._decoder.has_time)
-            self.clock = DeviceClock() if timed else ArrivalClock()
+            self.clock = DeviceClock(anchored=not self._kept) if timed else ArrivalClock()
             self._clock_chosen = True
         for block in arrivals(rows):
             self.clock.stamp(block)

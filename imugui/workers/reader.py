@@ -8,10 +8,13 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Signal
 
+from imugui.recording.events import Event
 from imugui.ring import Ring
 from imugui.samples import Rows
+from imugui.workers.fusion_worker import FusionWorker
 from imugui.workers.intake import Intake
 from imugui.workers.port_errors import PORT_ERRORS, Problem, explain, explain_file
+from imugui.workers.recorder import Tap
 from imugui.workers.transport import Source, Transport
 from imugui.workers.worker import Worker
 
@@ -37,19 +40,26 @@ class Reader(Worker):
 
     changed = Signal()  # the link's phase or format changed
 
-    def __init__(self, source: Source, transport: Transport, ring: Ring) -> None:
+    def __init__(self, source: Source, transport: Transport, ring: Ring, fusion: FusionWorker) -> None:
         super().__init__()
         self.source = source
         self.link = Link()
         self.intake = Intake(source)
         self._transport = transport
         self._ring = ring
+        self._fusion = fusion
+        self._tap: Tap | None = None
+        self._new_tap: Tap | None = None
         self._open = False
         self._tried = math.nan
 
+    def record(self, tap: Tap | None) -> None:
+        """From the next arrival on leave bytes and events in this tap; None: no more."""
+        self._new_tap = tap
+
     def step(self) -> None:
         if self.link.phase in ("ended", "failed"):
-            self.stopping.wait(0.1)
+            self._rest()
         elif not self._open:
             self._try_open()
         else:
@@ -68,6 +78,9 @@ class Reader(Worker):
         self.link.opened = time.perf_counter()
         self.link.problem = None
         self.intake.opened(self._transport, self.link.opened)
+        if self._tap is not None:
+            self._tap.raw.append((self.link.opened, b""))
+        self._note("connect", self.source.address)
         self._enter("open")
 
     def _not_opened(self, problem: Problem) -> None:
@@ -88,7 +101,6 @@ class Reader(Worker):
         try:
             data = self._transport.read()
         except EOFError:
-            self._transport.close()
             self._enter("ended")
             return
         except PORT_ERRORS as error:
@@ -99,9 +111,21 @@ class Reader(Worker):
             self._take(data, now)
         self.intake.tick(self._transport, now)
 
+    def _rest(self) -> None:
+        """Nothing to read, for good or until the player goes back in its file."""
+        self.stopping.wait(0.05)
+        if self.link.phase == "ended" and not getattr(self._transport, "ended", True):
+            self._enter("open")
+
     def _take(self, data: bytes | Rows, now: float) -> None:
         self.link.byte_t = now
         known = self.intake.format
+        if self._new_tap is not self._tap:
+            self._begin_tap()
+        if self._tap is not None and isinstance(data, bytes):
+            self._tap.raw.append((now, data))
+        if getattr(self._transport, "jumped", False):
+            self._jump()
         rows = self.intake.feed(data, now)
         if len(rows):
             self._count_break(now)
@@ -109,6 +133,25 @@ class Reader(Worker):
             self._ring.push(rows)
         if self.intake.format != known:
             self.changed.emit()
+
+    def _begin_tap(self) -> None:
+        """A recording begins with the next sample: say what is known so far, so that it can be computed again."""
+        self._tap = self._new_tap
+        if self._tap is not None:
+            if self.intake.head:
+                self._tap.raw.append((math.nan, self.intake.head))
+            self._fusion.begin_tap(self._tap, self._ring.count, self.intake.clock.state())
+
+    def _jump(self) -> None:
+        """The player went elsewhere in its file: clock and filter begin again there."""
+        self._transport.jumped = False  # type: ignore[attr-defined]
+        self.intake.restart_clock()
+        self._fusion.restart(self._ring.count)
+
+    def _note(self, kind: str, text: str) -> None:
+        if self._tap is not None and self._tap.ready.is_set():
+            number = self._ring.count - self._tap.first_sample
+            self._tap.events.append(Event(kind, math.nan, number, text))
 
     def _count_break(self, now: float) -> None:
         """After a break of the link, what is missing is the time between the samples around it."""
@@ -121,6 +164,7 @@ class Reader(Worker):
         self._tried = math.nan
         self.link.problem = problem
         self.link.breaks += 1
+        self._note("lost", problem.sentence)
         self._enter("lost")
         self.stopping.wait(RETRY_S)
 

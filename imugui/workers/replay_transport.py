@@ -1,15 +1,15 @@
-"""A file as a board: sample CSV or raw capture, at the speed it was made (times a factor)."""
+"""A file as a board: a recording, a sample CSV or a raw capture, played by its own times."""
 
 from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
-from imugui.recording import UnreadableError, read_samples
+from imugui.recording import Capture, Recording, UnreadableError, is_recording, read_recording, read_samples
 from imugui.samples import Rows
+from imugui.workers.player import BLOCK, Player
 from imugui.workers.transport import Source
 
 SHORTEST_WAIT_S = 0.004
@@ -17,36 +17,49 @@ LONGEST_WAIT_S = 0.1
 
 
 class ReplayTransport:
-    """Plays the rows of one file once. ``address`` is its path."""
+    """Plays one file. ``address`` is its path; ``player`` is there once it is open."""
 
     retries = False
     baud = 0
 
     def __init__(self, source: Source) -> None:
+        self.player: Player | None = None
+        self.recording: Recording | None = None
+        self.capture: Capture | None = None
+        self.jumped = False  # the rows read last do not follow those before; whoever takes note resets it
+        self.room: Callable[[], int] = lambda: BLOCK  # how many rows the receiver can take without losing any
         self._source = source
-        self._next = 0
         self._wake = threading.Event()
 
     def open(self) -> None:
         """Read the file; OSError when it cannot be read, ValueError in words when it holds no samples."""
         source = self._source
+        path = Path(source.address)
         try:
-            self.capture = read_samples(Path(source.address), source.format, source.options, source.rate_hz)
+            if is_recording(path):
+                self.recording = read_recording(path)
+                rows, events = self.recording.samples, self.recording.events
+            else:
+                self.capture = read_samples(path, source.format, source.options, source.rate_hz)
+                rows, events = self.capture.rows, []
         except UnreadableError as error:
             raise ValueError(str(error)) from error
-        self._rows = self.capture.rows
-        self._elapsed = (self._rows["t"] - self._rows["t"][0]) / source.speed
-        self._start = time.perf_counter()
+        self.player = Player(rows, events, source.speed)
 
     def read(self) -> bytes | Rows:
-        if self._next >= len(self._rows):
+        player = self.player
+        if player is None or player.ended:
             raise EOFError
-        now = time.perf_counter() - self._start
-        wait = float(self._elapsed[self._next]) - now
+        wait = player.wait_s(time.perf_counter())
         self._wake.wait(min(max(wait, SHORTEST_WAIT_S), LONGEST_WAIT_S))
-        end = int(np.searchsorted(self._elapsed, time.perf_counter() - self._start, side="right"))
-        rows, self._next = self._rows[self._next : end], max(self._next, end)
-        return rows.copy() if len(rows) else b""
+        rows, jumped = player.due(time.perf_counter(), self.room())
+        self.jumped = self.jumped or jumped
+        return rows if len(rows) else b""
+
+    @property
+    def ended(self) -> bool:
+        """Whether everything was played; seeking back or playing again changes that."""
+        return self.player is None or self.player.ended
 
     def close(self) -> None:
-        """The rows were read at opening; nothing is held."""
+        """The file was read at opening; nothing is held."""

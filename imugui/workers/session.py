@@ -50,6 +50,7 @@ class Session(QObject):
         self._fusion.failed.connect(self._defect)
         self._reader: Reader | None = None
         self._transport: Any = None
+        self._origin: tuple[float, ...] | None = None
         self._meter = Meter()
         self._first_row = 0
         self._last_state = State.IDLE
@@ -64,8 +65,9 @@ class Session(QObject):
         self._meter = Meter()
         self.reset_ages()
         self._fusion.missed_rows = 0
+        self._origin = None
         self._fusion.replace(Pipeline(self.filter_name, self.filter_params, use_mag=self.use_mag), carry_on=False)
-        self._reader = Reader(source, self._transport, self.samples)
+        self._reader = Reader(source, self._transport, self.samples, self._fusion)
         self._reader.changed.connect(self._link_changed)
         self._reader.failed.connect(self._defect)
         self._reader.start()
@@ -134,22 +136,25 @@ class Session(QObject):
     def set_filter(self, name: str, params: Any = None, use_mag: bool = True) -> None:
         """Replace the pipeline whole; the new filter starts from the last attitude and keeps the origin."""
         old = self._fusion.pipeline
-        self._fusion.replace(Pipeline(name, params, old.correction, use_mag, old.origin), carry_on=True)
+        self._fusion.replace(Pipeline(name, params, old.correction, use_mag), carry_on=True)
 
     @property
     def has_origin(self) -> bool:
-        return self._fusion.pipeline.origin is not None
+        return self._origin is not None
 
     def set_origin(self) -> bool:
         """Make the newest attitude the origin; False when there is none."""
         newest = self.attitude.last(1)
         if len(newest) == 0 or self.status().state is not State.STREAMING:
             return False
-        self._fusion.pipeline.set_origin(tuple(float(value) for value in newest["quat"][0]))
+        self._origin = tuple(float(value) for value in newest["quat"][0])
+        self._fusion.set_origin(self._origin)
         return True
 
     def clear_origin(self) -> None:
-        self._fusion.pipeline.set_origin(None)
+        """Show attitudes in the earth's axes again."""
+        self._origin = None
+        self._fusion.set_origin(None)
 
     @property
     def mag_updates(self) -> int:
@@ -227,6 +232,7 @@ class Session(QObject):
             phase=link.phase,
             where=reader.source.address,
             problem=link.problem.sentence if link.problem else "",
+            problem_kind=link.problem.kind if link.problem else "",
             opened=link.opened,
             byte_t=link.byte_t,
             sample_t=link.sample_t,

@@ -22,7 +22,7 @@ class Source:
     options: Options = NO_OPTIONS
     speed: float = 1.0  # of a replay
     rate_hz: float = 0.0  # of the virtual board, or of a capture without times; 0: the usual one
-    errors: str = "mpu9250"  # of the virtual board: a key of its error presets
+    errors: str = "mpu9250-calibrated"  # of the virtual board: a key of its error presets
     seed: int = 1
 
 

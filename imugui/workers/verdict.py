@@ -32,6 +32,9 @@ class State(enum.Enum):
     IMPOSSIBLE = ("Impossible values", "bad")
     STREAMING = ("Streaming", "good")
     STALLED = ("Stalled", "warn")
+    MISSING = ("No port", "bad")
+    BUSY = ("Port busy", "bad")
+    DENIED = ("No permission", "bad")
     LOST = ("Connection lost", "bad")
     ENDED = ("Recording ended", "neutral")
     FAILED = ("Cannot open", "bad")
@@ -60,6 +63,7 @@ class Facts:
     phase: str  # "idle", "opening", "open", "lost", "ended", "failed"
     where: str = ""
     problem: str = ""
+    problem_kind: str = ""  # a key of port_errors.SENTENCES
     opened: float = math.nan
     byte_t: float = math.nan  # newest byte
     sample_t: float = math.nan  # newest sample
@@ -90,7 +94,12 @@ def _failed(facts: Facts) -> Verdict:
 
 
 def _lost(facts: Facts) -> Verdict:
-    return Verdict(State.LOST, facts.problem)
+    never_open = math.isnan(facts.opened)
+    state = _NOT_OPENED.get(facts.problem_kind, State.FAILED) if never_open else State.LOST
+    return Verdict(state, facts.problem)
+
+
+_NOT_OPENED = {"missing": State.MISSING, "busy": State.BUSY, "denied": State.DENIED}
 
 
 def _ended(facts: Facts) -> Verdict:
@@ -132,7 +141,8 @@ def _after_samples(facts: Facts) -> Verdict:
     if facts.odd:
         return Verdict(State.IMPOSSIBLE, facts.odd)
     rate = f" at {facts.baud} baud" if facts.baud else ""
-    said = f"{facts.format}{rate}. {facts.findings}".strip()
+    found = f": {facts.findings}" if facts.findings else ""
+    said = f"{facts.format[:1].upper()}{facts.format[1:]}{rate}{found}."
     if facts.breaks:
         said += f" The connection broke {facts.breaks} x; {facts.missing_s:.1f} s of data are missing."
     return Verdict(State.STREAMING, said)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -391,3 +392,26 @@ def test_switching_the_magnetometer_on_sets_the_heading_at_once(ideal_rows: Idea
         assert error_deg(before.step(rows[:500])["quat"][-1], truth[499]) > 10.0
         after.continue_from(before)
         assert error_deg(after.step(rows[500:])["quat"][20:], truth[520:]).max() < 0.5
+
+
+@pytest.mark.parametrize("name", FILTERS)
+def test_a_saved_state_continues_bit_for_bit_through_json(ideal_rows: IdealRows, name: str) -> None:
+    rows, _ = ideal_rows(np.arange(400) / 100.0, mag_every=7)
+    whole = Pipeline(name, origin=(0.6, 0.0, 0.8, 0.0))
+    whole.step(rows[:150])
+    text = json.dumps(whole.state())
+    resumed = Pipeline.from_state(json.loads(text))
+    expected, got = whole.step(rows[150:]), resumed.step(rows[150:])
+    for field in ("quat", "local", "bias", "rest", "disturbed", "mag_used"):
+        assert np.array_equal(expected[field], got[field]), field
+    assert resumed.settings() == whole.settings()
+
+
+def test_a_restart_forgets_what_was(ideal_rows: IdealRows) -> None:
+    rows, _ = ideal_rows(np.arange(300) / 100.0)
+    pipeline = Pipeline(origin=(0.6, 0.0, 0.8, 0.0))
+    pipeline.step(rows[:200])
+    pipeline.restart()
+    assert np.array_equal(pipeline.step(rows[200:])["quat"], Pipeline().step(rows[200:])["quat"])
+    assert pipeline.origin is not None
+    assert pipeline.restarts == 1

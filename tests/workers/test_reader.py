@@ -13,12 +13,14 @@ import pytest
 
 pytest.importorskip("pty", reason="this system has no pseudo-terminals")
 
+from imugui.fusion.pipeline import Pipeline
 from imugui.ring import Ring
-from imugui.samples import SAMPLE
+from imugui.samples import ATTITUDE, SAMPLE
 from imugui.simulation.errors import PRESETS
 from imugui.simulation.pty_board import PtyBoard
 from imugui.simulation.pty_port import PtyPort
 from imugui.simulation.wire import real_board
+from imugui.workers.fusion_worker import FusionWorker
 from imugui.workers.reader import Reader
 from imugui.workers.serial_transport import SerialTransport
 from imugui.workers.session import Session, Source, State
@@ -111,7 +113,7 @@ def test_a_yanked_port_is_said_once_and_comes_back_by_itself(feed: Feed, session
 
 def test_a_missing_port_is_waited_for(tmp_path: Path, session: Session, qtbot) -> None:
     session.connect_to(Source("serial", str(tmp_path / "board")))
-    qtbot.waitUntil(lambda: session.status().state is State.LOST, timeout=2_000)
+    qtbot.waitUntil(lambda: session.status().state is State.MISSING, timeout=2_000)
     assert "no port" in session.status().sentence
     feed = Feed(tmp_path / "board", "triplets")
     try:
@@ -150,7 +152,7 @@ def test_the_loop_body_steps_without_a_thread(qtbot) -> None:
     ring = Ring(SAMPLE, 100)
     source = Source("serial", "loop://", format="triplets", baud=115200)
     transport = SerialTransport(source)
-    reader = Reader(source, transport, ring)
+    reader = Reader(source, transport, ring, FusionWorker(ring, Ring(ATTITUDE, 100), Pipeline()))
     reader.step()
     assert reader.link.phase == "open"
     transport._port.write(b"0.01,-0.02,1.00;1.0,2.0,3.0;100.0,200.0,300.0;\r\n" * 4)

@@ -1,0 +1,187 @@
+"""The composition root: arguments -> settings -> session -> window."""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import logging
+import logging.handlers
+import os
+import sys
+import threading
+import time
+from pathlib import Path
+from types import TracebackType
+
+from PySide6.QtCore import QObject, QTimer, Slot
+from PySide6.QtGui import QGuiApplication, QIcon
+from PySide6.QtWidgets import QApplication
+
+from imugui import paths, settings
+from imugui.cli import fail, write_report
+from imugui.fields import from_mapping
+from imugui.fusion import DEFAULT_FILTER, FILTERS
+from imugui.simulation.pty_board import PtyBoard
+from imugui.simulation.pty_port import PtyPort
+from imugui.simulation.wire import real_board
+from imugui.views import VIEWS
+from imugui.views.main_window import MainWindow
+from imugui.views.settings_store import SettingsStore
+from imugui.workers.headless import report, spin
+from imugui.workers.session import Session, Source, State
+
+SWITCH_S = 0.001
+"""How soon a painting window hands the interpreter to the reader and fusion threads, s."""
+
+COLLECT_MS = 500
+
+DEMO_FORMAT, DEMO_MOTION = "accel-lines", "aiming"
+
+
+def run_window(arguments: argparse.Namespace) -> int:
+    """Open the window and stay until it is closed."""
+    app = make_application()
+    folder = paths.user_folder()
+    store = SettingsStore(folder / settings.FILE_NAME)
+    log = start_log(folder)
+    session = make_session(store)
+    window = MainWindow(session, store)
+    catch_exceptions(window, log)
+    window.show()
+    source = wanted_source(arguments)
+    if source is not None:
+        session.connect_to(source)
+    try:
+        return app.exec()
+    finally:
+        session.close()
+
+
+def make_application() -> QApplication:
+    """The one QApplication, named and with its icon."""
+    sys.setswitchinterval(SWITCH_S)
+    app = QApplication.instance() or QApplication(sys.argv[:1])
+    assert isinstance(app, QApplication)  # noqa: S101
+    app.setApplicationName("imugui")
+    app.setApplicationDisplayName("imugui")
+    QGuiApplication.setDesktopFileName("imugui")
+    Collector(app)
+    app.setWindowIcon(QIcon(str(paths.resources() / "icons" / "imugui.svg")))
+    return app
+
+
+class Collector(QObject):
+    """Collects garbage in the main thread only: Qt widgets must not be freed by a reader or fusion thread."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        gc.disable()
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self.collect)
+        self._timer.start(COLLECT_MS)
+
+    @Slot()
+    def collect(self) -> None:
+        """Collect the youngest generations that are full, as the interpreter itself would."""
+        counts, limits = gc.get_count(), gc.get_threshold()
+        due = [generation for generation in range(3) if counts[generation] > limits[generation]]
+        if due:
+            gc.collect(due[-1])
+
+
+def make_session(store: SettingsStore) -> Session:
+    """A session with the filter and parameters that were used last."""
+    kept = store.store.settings
+    name = kept.filter if kept.filter in FILTERS else DEFAULT_FILTER
+    params, _ = from_mapping(FILTERS[name].Params, store.store.filters.get(name, {}))
+    return Session(name, params, kept.use_mag)
+
+
+def wanted_source(arguments: argparse.Namespace) -> Source | None:
+    """What the command line asks to open at once."""
+    places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
+    return next((Source(kind, place) for kind, place in places.items() if place), None)
+
+
+def start_log(folder: Path) -> Path | None:
+    """Log to a file of the user's; None, and no log, where that cannot be written."""
+    path = folder / "imugui.log"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        handler = logging.handlers.RotatingFileHandler(path, maxBytes=1_000_000, backupCount=2, encoding="utf-8")
+    except OSError:
+        return None
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+    logging.getLogger().addHandler(handler)
+    return path
+
+
+def catch_exceptions(window: MainWindow, log: Path | None) -> None:
+    """A defect is logged and said once at a time; the program and its recording go on."""
+
+    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            QApplication.quit()
+            return
+        logging.getLogger("imugui").critical("uncaught", exc_info=(kind, error, trace))
+        sys.__excepthook__(kind, error, trace)
+        where = f"Details are in {log}." if log else "It could not be logged."
+        window.show_message("error", f"A defect in imugui: {kind.__name__}: {error}. {where} Data keep coming in.")
+
+    sys.excepthook = hook
+
+
+def run_demo(out: Path, seconds: float) -> int:
+    """Virtual board -> pseudo-terminal -> serial reader -> fusion -> pages; report.json and a screenshot of each."""
+    if "QT_QPA_PLATFORM" not in os.environ:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        return fail(f"{out}: {error.strerror}")
+    app = make_application()
+    session = Session()
+    window = MainWindow(session, SettingsStore(out / settings.FILE_NAME))
+    window.show()
+    stop, port = threading.Event(), PtyPort()
+    source = demo_source(port, stop)
+    session.connect_to(source)
+    try:
+        until = time.perf_counter() + seconds
+        status = spin(session, lambda status: time.perf_counter() > until or status.state is State.FAILED)
+        written = take_screenshots(window, app, out)
+        write_report(out / "report.json", report(session, status))
+    except OSError as error:
+        return fail(f"{error.filename or out}: {error.strerror}")
+    finally:
+        stop.set()
+        window.close()
+        session.close()
+        port.close()
+    for path in (*written, out / "report.json"):
+        print(path)  # noqa: T201
+    return 0 if status.samples else fail(status.sentence)
+
+
+def demo_source(port: PtyPort, stop: threading.Event) -> Source:
+    """A virtual board on a pseudo-terminal, fed by a thread of its own; without one where there are none."""
+    try:
+        port.open()
+    except OSError:
+        return Source("simulator", DEMO_MOTION, DEMO_FORMAT)
+    board = PtyBoard(real_board(DEMO_FORMAT, DEMO_MOTION, seed=1), port, time.monotonic())
+    threading.Thread(target=board.run_until, args=(stop,), daemon=True).start()
+    return Source("serial", port.path)
+
+
+def take_screenshots(window: MainWindow, app: QApplication, out: Path) -> list[Path]:
+    """One PNG of the window for each page; raises OSError when a picture cannot be written."""
+    written = []
+    for name in VIEWS:
+        window.show_page(name)
+        app.processEvents()
+        path = out / f"{name}.png"
+        if not window.grab().save(str(path)):
+            raise OSError(0, "the picture could not be written", str(path))
+        written.append(path)
+    return written

@@ -1,0 +1,189 @@
+"""The commands that need no window."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+from imugui import __version__
+from imugui.formats import FORMATS
+from imugui.fusion import DEFAULT_FILTER, FILTERS
+from imugui.fusion.pipeline import Pipeline
+from imugui.recording import UnreadableError, read_samples, write_attitude
+from imugui.simulation.errors import PRESETS
+from imugui.simulation.motions import MOTIONS
+
+OK, FAILED = 0, 2
+NOTE = "A research tool, not a medical device."
+
+
+def parser() -> argparse.ArgumentParser:
+    """The whole command line."""
+    top = argparse.ArgumentParser(prog="imugui", description=f"imugui opens its window. {NOTE}")
+    top.add_argument("--version", action="version", version=f"imugui {__version__}")
+    top.add_argument("--port", help="connect to this serial port at once")
+    top.add_argument("--recording", help="open this file at once")
+    top.add_argument("--simulate", choices=list(MOTIONS), help="start the simulated board at once")
+    top.set_defaults(command=None)
+    commands = top.add_subparsers(dest="command", title="commands that need no window")
+    for name, (add, run, text) in COMMANDS.items():
+        one = commands.add_parser(name, help=text, description=text)
+        add(one)
+        one.set_defaults(run=run)
+    return top
+
+
+def fail(text: str) -> int:
+    """One line that names the cause, and the exit status for it."""
+    print(f"imugui: {' '.join(text.split())}", file=sys.stderr)
+    return FAILED
+
+
+# ports
+
+
+def _add_ports(_: argparse.ArgumentParser) -> None:
+    """No arguments."""
+
+
+def _ports(_: argparse.Namespace) -> int:
+    from imugui.workers.serial_transport import list_ports
+
+    ports = list_ports()
+    for port in ports:
+        print(port.device, port.description, port.hint, sep="\t")
+    if not ports:
+        print("No serial port found: plug a board in (some cables only charge).", file=sys.stderr)
+    return OK
+
+
+# simulate
+
+
+def _add_simulate(one: argparse.ArgumentParser) -> None:
+    one.add_argument("--format", choices=list(FORMATS), default="accel-lines")
+    one.add_argument("--motion", choices=[name for name in MOTIONS if name != "hand"], default="free")
+    one.add_argument("--errors", choices=list(PRESETS), default="mpu9250")
+    one.add_argument("--seed", type=int, default=1)
+    one.add_argument("--port-link", type=Path, help="a steady name for the port")
+
+
+def _simulate(arguments: argparse.Namespace) -> int:
+    from imugui.simulation.pty_board import PtyBoard
+    from imugui.simulation.pty_port import PtyPort
+    from imugui.simulation.wire import real_board
+
+    port = PtyPort(arguments.port_link)
+    try:
+        port.open()
+    except OSError as error:
+        return fail(str(error))
+    wire = real_board(arguments.format, arguments.motion, PRESETS[arguments.errors], arguments.seed)
+    print(f"{arguments.format} at {wire.board.rate_hz:g} Hz on {port.path}  (Ctrl-C stops)", flush=True)
+    stop = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stop.set())
+    PtyBoard(wire, port, time.monotonic()).run_until(stop)
+    port.close()
+    return OK
+
+
+# replay
+
+
+def _add_fusion(one: argparse.ArgumentParser) -> None:
+    one.add_argument("--format", default="auto", choices=["auto", *FORMATS])
+    one.add_argument("--filter", default=DEFAULT_FILTER, choices=list(FILTERS))
+    one.add_argument("--no-mag", action="store_true", help="do not use the magnetometer")
+
+
+def _add_replay(one: argparse.ArgumentParser) -> None:
+    one.add_argument("file", type=Path)
+    _add_fusion(one)
+    one.add_argument("--rate", type=float, help="samples per second of a capture without times, Hz")
+    one.add_argument("--out", type=Path, required=True, help="the attitude CSV to write")
+
+
+def _replay(arguments: argparse.Namespace) -> int:
+    try:
+        capture = read_samples(arguments.file, arguments.format, rate_hz=arguments.rate or 0.0)
+        pipeline = Pipeline(arguments.filter, use_mag=not arguments.no_mag)
+        fused = pipeline.step(capture.rows)
+        metadata = {"imugui": __version__, "source": arguments.file.name, "format": capture.format}
+        metadata |= {"filter": arguments.filter, "frame": "ENU, sensor to earth", "found": capture.decoder.seen}
+        write_attitude(arguments.out, fused, metadata)
+    except UnreadableError as error:
+        return fail(str(error))
+    except OSError as error:
+        return fail(f"{error.filename or arguments.file}: {error.strerror or error}")
+    counts = capture.decoder.counts
+    print(f"{counts.samples} samples, {counts.bad_messages} bad messages, {capture.format}: {capture.decoder.seen}")
+    print(f"{arguments.filter}: {pipeline.mag_updates} magnetometer measurements, {pipeline.restarts} restarts")
+    return OK
+
+
+# live
+
+
+def _add_live(one: argparse.ArgumentParser) -> None:
+    where = one.add_mutually_exclusive_group(required=True)
+    where.add_argument("--port", help="a serial port, or any URL that pyserial takes")
+    where.add_argument("--recording", type=Path, help="a file, at the speed it was made")
+    where.add_argument("--simulate", choices=list(MOTIONS), help="the virtual board, without a port")
+    _add_fusion(one)
+    one.add_argument("--baud", type=int, default=0, help="0 finds it")
+    one.add_argument("--rate", type=float, default=0.0, help="samples per second of the virtual board, Hz")
+    one.add_argument("--seconds", type=float, default=math.inf, help="how long; without it until Ctrl-C")
+    one.add_argument("--report", type=Path, help="write the figures here, as JSON")
+
+
+def _live(arguments: argparse.Namespace) -> int:
+    from imugui.workers.headless import run_session
+    from imugui.workers.session import Source
+
+    places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
+    kind, address = next((kind, str(place)) for kind, place in places.items() if place)
+    source = Source(kind, address, arguments.format, arguments.baud, rate_hz=arguments.rate)
+    result = run_session(source, arguments.filter, not arguments.no_mag, arguments.seconds)
+    if arguments.report:
+        try:
+            write_report(arguments.report, result.report)
+        except OSError as error:
+            return fail(f"{arguments.report}: {error.strerror}")
+    print(json.dumps(result.report))
+    return OK if result.report["samples"] else fail(result.sentence)
+
+
+def write_report(path: Path, report: dict[str, Any]) -> None:
+    """Write a report as JSON; raises OSError."""
+    path.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+
+
+# demo
+
+
+def _add_demo(one: argparse.ArgumentParser) -> None:
+    one.add_argument("--out", type=Path, default=Path("demo-out"), help="folder for report.json and screenshots")
+    one.add_argument("--seconds", type=float, default=6.0)
+
+
+def _demo(arguments: argparse.Namespace) -> int:
+    from imugui.app import run_demo
+
+    return run_demo(arguments.out, arguments.seconds)
+
+
+COMMANDS = {
+    "demo": (_add_demo, _demo, "the virtual board through a real port, the fusion and every page, without a screen"),
+    "ports": (_add_ports, _ports, "list serial ports, one line each"),
+    "simulate": (_add_simulate, _simulate, "a virtual board on a pseudo-terminal, until stopped"),
+    "live": (_add_live, _live, "read a board, fuse, and report"),
+    "replay": (_add_replay, _replay, "fuse a file as fast as it goes, and write the attitude"),
+}
