@@ -129,6 +129,24 @@ def _replay(arguments: argparse.Namespace) -> int:
     return OK
 
 
+# verify
+
+
+def _add_verify(one: argparse.ArgumentParser) -> None:
+    one.add_argument("recording", type=Path)
+
+
+def _verify(arguments: argparse.Namespace) -> int:
+    from imugui.workers.verify import verify
+
+    try:
+        result = verify(arguments.recording)
+    except (UnreadableError, OSError) as error:
+        return fail(str(error))
+    print(result.sentence)
+    return OK
+
+
 # live
 
 
@@ -142,6 +160,7 @@ def _add_live(one: argparse.ArgumentParser) -> None:
     one.add_argument("--rate", type=float, default=0.0, help="samples per second of the virtual board, Hz")
     one.add_argument("--seconds", type=float, default=math.inf, help="how long; without it until Ctrl-C")
     one.add_argument("--report", type=Path, help="write the figures here, as JSON")
+    one.add_argument("--record", type=Path, help="record into this new folder (NAME.imugui)")
 
 
 def _live(arguments: argparse.Namespace) -> int:
@@ -151,7 +170,7 @@ def _live(arguments: argparse.Namespace) -> int:
     places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
     kind, address = next((kind, str(place)) for kind, place in places.items() if place)
     source = Source(kind, address, arguments.format, arguments.baud, rate_hz=arguments.rate)
-    result = run_session(source, arguments.filter, not arguments.no_mag, arguments.seconds)
+    result = run_session(source, arguments.filter, not arguments.no_mag, arguments.seconds, arguments.record)
     if arguments.report:
         try:
             write_report(arguments.report, result.report)
@@ -185,5 +204,6 @@ COMMANDS = {
     "ports": (_add_ports, _ports, "list serial ports, one line each"),
     "simulate": (_add_simulate, _simulate, "a virtual board on a pseudo-terminal, until stopped"),
     "live": (_add_live, _live, "read a board, fuse, and report"),
+    "verify": (_add_verify, _verify, "compute a recording again from its raw bytes and compare"),
     "replay": (_add_replay, _replay, "fuse a file as fast as it goes, and write the attitude"),
 }

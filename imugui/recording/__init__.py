@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from imugui.recording import raw
 from imugui.recording.csv_files import (
     ATTITUDE_COLUMNS,
     Capture,
@@ -21,6 +22,7 @@ __all__ = [
     "Recording",
     "UnreadableError",
     "is_recording",
+    "raw",
     "read_recording",
     "read_samples",
     "write_attitude",

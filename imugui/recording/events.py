@@ -16,6 +16,7 @@ KINDS = (
     "disconnect",
     "filter",  # another filter, other parameters, magnetometer on or off
     "origin",
+    "restart",  # the filter began again, because what came did not follow what was
     "marker",
     "problem",
     "stop",

@@ -94,18 +94,31 @@ class FusionWorker(Worker):
 
     def restart(self, sample: int) -> None:
         """Begin again from the accelerometer at that sample: what comes does not follow what was."""
-        self.at(sample, lambda _: self._running.restart())
 
-    def begin_tap(self, tap: Tap, sample: int, clock: dict[str, Any]) -> None:
-        """Start a recording at that sample, noting what filter and clock know."""
+        def begin(number: int) -> None:
+            self._running.restart()
+            self._note("restart", number, "", {})
+
+        self.at(sample, begin)
+
+    def begin_tap(self, tap: Tap, sample: int, found: dict[str, Any]) -> None:
+        """Start a recording at that sample, noting what the filter knows and what the reader ``found``."""
 
         def begin(number: int) -> None:
             tap.first_sample, tap.first_attitude = number, self._attitude.count
             self.tap = tap
-            self._note("start", number, "", {"pipeline": self._running.state(), "clock": clock})
+            self._note("start", number, "", {"pipeline": self._running.state(), **found})
             tap.ready.set()
 
         self.at(sample, begin)
+
+    def mark(self, text: str) -> None:
+        """Note a marker at the next sample."""
+        self.at(NOW, lambda number: self._note("marker", number, text, {}))
+
+    def end_tap(self) -> None:
+        """The recording ends: nothing is noted any more."""
+        self.tap = None
 
     @property
     def done(self) -> int:

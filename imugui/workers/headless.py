@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import signal
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QCoreApplication, QEventLoop, QTimer
@@ -25,13 +27,18 @@ class Result:
     sentence: str
 
 
-def run_session(source: Source, filter_name: str, use_mag: bool, seconds: float) -> Result:
-    """Read the source for ``seconds`` of host time, or until a file ends, or until Ctrl-C."""
+def run_session(
+    source: Source, filter_name: str, use_mag: bool, seconds: float, recording: Path | None = None
+) -> Result:
+    """Read the source for ``seconds`` of host time, or until a file ends, or until Ctrl-C; record it if asked."""
     app = QCoreApplication.instance() or QCoreApplication([])
     session = Session(filter_name, use_mag=use_mag)
     interrupted: list[int] = []
     before = signal.signal(signal.SIGINT, lambda number, _: interrupted.append(number))
+    session.message.connect(lambda _, text: print(text, file=sys.stderr))  # noqa: T201
     session.connect_to(source)
+    if recording is not None:
+        session.record(recording)
     started = time.perf_counter()
 
     def over(status: Status) -> bool:

@@ -120,7 +120,7 @@ class Reader(Worker):
     def _take(self, data: bytes | Rows, now: float) -> None:
         self.link.byte_t = now
         known = self.intake.format
-        if self._new_tap is not self._tap:
+        if self._new_tap is not self._tap and (self._new_tap is None or known):
             self._begin_tap()
         if self._tap is not None and isinstance(data, bytes):
             self._tap.raw.append((now, data))
@@ -140,7 +140,8 @@ class Reader(Worker):
         if self._tap is not None:
             if self.intake.head:
                 self._tap.raw.append((math.nan, self.intake.head))
-            self._fusion.begin_tap(self._tap, self._ring.count, self.intake.clock.state())
+            found = {"format": self.intake.format, "clock": self.intake.clock.state()}
+            self._fusion.begin_tap(self._tap, self._ring.count, found)
 
     def _jump(self) -> None:
         """The player went elsewhere in its file: clock and filter begin again there."""

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from PySide6.QtCore import Signal
+
 from imugui.recording.events import Event
 from imugui.recording.folder import FolderWriter
 from imugui.recording.raw import Chunk
@@ -49,6 +51,8 @@ class RecordingStatus:
 
 class Recorder(Worker):
     """Writes one recording, until stopped or until the disk says no."""
+
+    stopped_by_disk = Signal(str)
 
     def __init__(self, folder: Path, about: dict[str, Any], samples: Ring, attitude: Ring, tap: Tap) -> None:
         """Make the folder at once; raises OSError."""
@@ -93,6 +97,7 @@ class Recorder(Worker):
         except OSError as error:
             if not self.problem:
                 self.problem = disk_words(error, self._writer.folder)
+                self.stopped_by_disk.emit(self.problem)
 
     def _drain(self) -> None:
         if self._tap.ready.is_set():

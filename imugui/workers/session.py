@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
+import datetime
 import math
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal, Slot
 
+from imugui import __version__
 from imugui.formats import Options
 from imugui.fusion import DEFAULT_FILTER, FILTERS
 from imugui.fusion.pipeline import Pipeline
@@ -19,7 +23,10 @@ from imugui.samples import ATTITUDE, SAMPLE
 from imugui.simulation.motions import MOTIONS
 from imugui.workers import TRANSPORTS
 from imugui.workers.fusion_worker import AgeCounts, FusionWorker
+from imugui.workers.player import Player
 from imugui.workers.reader import Link, Reader
+from imugui.workers.recorder import Recorder, RecordingStatus, Tap, disk_words
+from imugui.workers.replay_transport import ReplayTransport
 from imugui.workers.serial_transport import Port, list_ports
 from imugui.workers.simulator_transport import SimulatorTransport
 from imugui.workers.status import Status, mag_trust
@@ -50,6 +57,7 @@ class Session(QObject):
         self._fusion.failed.connect(self._defect)
         self._reader: Reader | None = None
         self._transport: Any = None
+        self._recorder: Recorder | None = None
         self._origin: tuple[float, ...] | None = None
         self._meter = Meter()
         self._first_row = 0
@@ -68,6 +76,8 @@ class Session(QObject):
         self._origin = None
         self._fusion.replace(Pipeline(self.filter_name, self.filter_params, use_mag=self.use_mag), carry_on=False)
         self._reader = Reader(source, self._transport, self.samples, self._fusion)
+        if isinstance(self._transport, ReplayTransport):
+            self._transport.room = self._room
         self._reader.changed.connect(self._link_changed)
         self._reader.failed.connect(self._defect)
         self._reader.start()
@@ -76,7 +86,8 @@ class Session(QObject):
         self._announce()
 
     def disconnect_source(self) -> None:
-        """Stop reading; the rings keep what was received."""
+        """Stop reading, and end a recording; the rings keep what was received."""
+        self.stop_recording()
         if self._reader is not None:
             reader, self._reader, self._transport = self._reader, None, None
             reader.changed.disconnect(self._link_changed)
@@ -169,6 +180,54 @@ class Session(QObject):
         """Count ages anew."""
         self._fusion.ages = AgeCounts()
 
+    # recording
+
+    def record(self, folder: Path, label: str = "", note: str = "") -> bool:
+        """Begin a recording in a new folder; False, and a message, when the disk refuses or nothing is connected."""
+        if self._reader is None or self.recording is not None:
+            self.message.emit("warn", "Connect a board first: there is nothing to record.")
+            return False
+        tap = Tap()
+        try:
+            about = describe(self._reader, self._fusion.pipeline, label, note)
+            self._recorder = Recorder(folder, about, self.samples, self.attitude, tap)
+        except OSError as error:
+            self.message.emit("error", disk_words(error, folder))
+            return False
+        self._recorder.failed.connect(self._defect)
+        self._recorder.stopped_by_disk.connect(self._disk_failed)
+        self._reader.record(tap)
+        self._recorder.start()
+        return True
+
+    def stop_recording(self) -> Path | None:
+        """End the recording in order; its folder, or None when there was none."""
+        recorder, self._recorder = self._recorder, None
+        if recorder is None:
+            return None
+        if self._reader is not None:
+            self._reader.record(None)
+        self._fusion.end_tap()
+        recorder.stop()
+        return recorder.status().path
+
+    @property
+    def recording(self) -> RecordingStatus | None:
+        """The recording that runs, or None."""
+        return self._recorder.status() if self._recorder is not None else None
+
+    def mark(self, text: str = "") -> bool:
+        """Note a marker in the recording at this moment; False when there is none."""
+        if self._recorder is None:
+            return False
+        self._fusion.mark(text)
+        return True
+
+    @property
+    def player(self) -> Player | None:
+        """Play, pause, seek and speed, while a file is the source."""
+        return self._transport.player if isinstance(self._transport, ReplayTransport) else None
+
     # status
 
     def status(self) -> Status:
@@ -245,6 +304,10 @@ class Session(QObject):
             breaks=link.breaks,
         )
 
+    def _room(self) -> int:
+        """How many rows the fusion thread can still take without missing any."""
+        return RING_ROWS // 2 - (self.samples.count - self._fusion.done)
+
     # from the workers
 
     @Slot()
@@ -259,6 +322,11 @@ class Session(QObject):
         self._announce()
 
     @Slot(str)
+    def _disk_failed(self, text: str) -> None:
+        self.message.emit("error", text)
+        self.stop_recording()
+
+    @Slot(str)
     def _defect(self, text: str) -> None:
         self.message.emit("error", f"A defect in imugui: {text}. Data keep coming in; please report it.")
 
@@ -269,3 +337,22 @@ class Session(QObject):
         if state is not self._last_state:
             self._last_state = state
             self.state_changed.emit(state)
+
+
+def describe(reader: Reader, pipeline: Pipeline, label: str, note: str) -> dict[str, Any]:
+    """What a recording says about itself."""
+    source = reader.source
+    return {
+        "made_by": f"imugui {__version__}",
+        "started_utc": datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds"),
+        "label": label,
+        "note": note,
+        "transport": source.transport,
+        "board": source.address,
+        "format": reader.intake.format,
+        "found": reader.intake.seen,
+        "frame": "quaternions (w, x, y, z) sensor to earth, earth east-north-up",
+        "units": "s, m/s2, rad/s, uT, deg C, deg, m, m/s",
+        "source": dataclasses.asdict(source),
+        "fusion": pipeline.settings(),
+    }

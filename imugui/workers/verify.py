@@ -1,0 +1,188 @@
+"""Compute a recording again, from its raw bytes to its attitudes, and compare with what was recorded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from imugui import __version__
+from imugui.formats import FORMATS, Decoder, Options
+from imugui.fusion.pipeline import Pipeline
+from imugui.fusion.quaternion import angle_between
+from imugui.fusion.timing import ArrivalClock, DeviceClock
+from imugui.recording import Event, Recording, UnreadableError, raw, read_recording
+from imugui.recording.folder import RAW
+from imugui.samples import SAMPLE, Rows
+
+CUT_AT_MOST = 50  # samples at the start of which some bytes lie before the recording
+COMPARED = ("t", "gyr", "acc", "mag", "temp_c", "status", "lat", "lon", "alt", "speed", "course_deg")
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What came out. Differences are the largest, over everything compared."""
+
+    samples: int
+    attitudes: int
+    raw_samples: int  # samples decoded again from the raw bytes; 0 when none were recorded
+    sample_difference: float  # in the unit of the value that differs most
+    attitude_difference_deg: float
+    recorded_by: str
+    warnings: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        source = f"{self.raw_samples} samples from raw bytes" if self.raw_samples else "recorded samples (no raw bytes)"
+        text = f"{self.attitudes} attitudes computed again from {source}: "
+        text += f"largest difference {self.attitude_difference_deg:.3g} deg"
+        if self.recorded_by != f"imugui {__version__}":
+            text += f" (recorded by {self.recorded_by})"
+        return " ".join((text, *self.warnings))
+
+
+def verify(path: Path) -> Verification:
+    """Recompute and compare; UnreadableError when the recording does not hold what that needs."""
+    recording = read_recording(path)
+    start = _start(recording)
+    samples, raw_samples, difference = recording.samples, 0, 0.0
+    if recording.has_raw:
+        again = decode_again(recording, start)
+        raw_samples = min(len(again), len(samples))
+        difference = largest_difference(again[:raw_samples], samples[:raw_samples])
+        samples = again
+    fused = fuse_again(samples, start, recording.events)
+    attitudes, angle = compare_attitudes(fused, recording.attitude)
+    made_by = str(recording.about.get("made_by", "an unknown version"))
+    return Verification(len(samples), attitudes, raw_samples, difference, angle, made_by, recording.warnings)
+
+
+def _start(recording: Recording) -> Event:
+    for event in recording.events:
+        if event.kind == "start":
+            return event
+    raise UnreadableError(f"{recording.folder}: cut off before its first second was written; nothing can be computed")
+
+
+def decode_again(recording: Recording, start: Event) -> Rows:
+    """SAMPLE rows, shape (n,), from the raw bytes with the decoder and clock that the recording names."""
+    name = start.data.get("format")
+    if name not in FORMATS:
+        raise UnreadableError(f"{recording.folder}: recorded from an unknown format {name!r}")
+    decoder = FORMATS[name].decoder(_options(recording.about))
+    blocks = [rows for rows in _decoded(decoder, recording.folder / RAW) if len(rows)]
+    if not blocks:
+        return np.empty(0, SAMPLE)
+    blocks[0] = np.concatenate((_cut_at_the_start(blocks, recording.samples, blocks[0]["t_arrival"][0]), blocks[0]))
+    clock: ArrivalClock | DeviceClock = DeviceClock() if decoder.has_time else ArrivalClock()
+    try:
+        clock.restore(start.data["clock"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise UnreadableError(f"{recording.folder}: its start state is damaged ({error})") from None
+    for block in blocks:
+        for rows in np.split(block, np.flatnonzero(np.diff(block["t_arrival"])) + 1):
+            clock.stamp(rows)
+    return np.concatenate(blocks)
+
+
+def _decoded(decoder: Decoder, path: Path) -> Any:
+    for arrival, chunk in raw.read(path):
+        if arrival != arrival:
+            decoder.feed(chunk, 0.0)  # what came before the recording: the decoder decides as it did then
+            decoder.resync()
+        elif not chunk:
+            decoder.resync()
+        else:
+            yield decoder.feed(chunk, arrival)
+
+
+def _cut_at_the_start(blocks: list[Rows], samples: Rows, arrival: float) -> Rows:
+    """Recorded samples, of which a part of the bytes came before the recording began."""
+    first = blocks[0][0]
+    for missing in range(min(CUT_AT_MOST, len(samples))):
+        if all(_same(samples[name][missing], first[name]) for name in ("gyr", "acc", "mag", "temp_c")):
+            cut = samples[:missing].copy()
+            cut["t_arrival"] = arrival
+            return cut
+    return samples[:0]
+
+
+def _same(a: Any, b: Any) -> bool:
+    return bool(np.array_equal(a, b, equal_nan=True))
+
+
+def fuse_again(samples: Rows, start: Event, events: list[Event]) -> Rows:
+    """ATTITUDE rows, shape (n,), with the recorded filter, from its recorded state, through all its changes."""
+    try:
+        pipeline = Pipeline.from_state(start.data["pipeline"])
+        blocks, done = [], 0
+        for event in events:
+            if event.kind in CHANGES:
+                cut = max(done, min(event.sample, len(samples)))
+                blocks.append(pipeline.step(samples[done:cut]))
+                done = cut
+                pipeline = CHANGES[event.kind](pipeline, event.data)
+        blocks.append(pipeline.step(samples[done:]))
+    except (KeyError, TypeError, ValueError) as error:
+        raise UnreadableError(f"the recorded filter cannot be set up again: {error}") from None
+    return np.concatenate(blocks)
+
+
+def exchanged(old: Pipeline, data: dict[str, Any]) -> Pipeline:
+    """Another filter or other parameters, as a "filter" event tells."""
+    pipeline = Pipeline.from_settings(data["pipeline"])
+    if data["carry_on"]:
+        pipeline.continue_from(old)
+    return pipeline
+
+
+def with_origin(pipeline: Pipeline, data: dict[str, Any]) -> Pipeline:
+    """The same pipeline with the origin of an "origin" event."""
+    pipeline.set_origin(data["quat"])
+    return pipeline
+
+
+def restarted(pipeline: Pipeline, _: dict[str, Any]) -> Pipeline:
+    """The same pipeline, begun again."""
+    pipeline.restart()
+    return pipeline
+
+
+CHANGES = {"filter": exchanged, "origin": with_origin, "restart": restarted}
+"""What an event of a recording does to the pipeline that runs."""
+
+
+def largest_difference(a: Rows, b: Rows) -> float:
+    """The largest difference of any value of two blocks of SAMPLE rows, shape (n,); infinite where one is missing."""
+    worst = 0.0
+    for name in COMPARED:
+        x, y = a[name].astype(float), b[name].astype(float)
+        if not np.array_equal(np.isnan(x), np.isnan(y)):
+            return float("inf")
+        worst = max(worst, float(np.nanmax(np.abs(x - y), initial=0.0)))
+    return worst
+
+
+def compare_attitudes(fused: Rows, recorded: Rows) -> tuple[int, float]:
+    """(attitudes of the same time, largest angle between two of them in deg); exactly 0 for equal digits."""
+    if len(fused) == 0 or len(recorded) == 0:
+        return 0, 0.0
+    at = np.minimum(np.searchsorted(fused["t"], recorded["t"]), len(fused) - 1)
+    same_time = fused["t"][at] == recorded["t"]
+    a, b = fused["quat"][at][same_time], recorded["quat"][same_time]
+    differ = (a != b).any(axis=1)
+    angles = angle_between(a[differ], b[differ]) if differ.any() else np.zeros(1)
+    return int(same_time.sum()), float(np.degrees(np.max(angles)))
+
+
+def _options(about: dict[str, Any]) -> Options:
+    kept = about.get("source", {}).get("options", {}) if isinstance(about.get("source"), dict) else {}
+    try:
+        values: dict[str, Any] = {
+            key: tuple(value) if isinstance(value, list) else value for key, value in kept.items()
+        }
+        return Options(**values)
+    except (TypeError, AttributeError):
+        return Options()
