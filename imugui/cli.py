@@ -16,7 +16,7 @@ from imugui import __version__
 from imugui.formats import FORMATS
 from imugui.fusion import DEFAULT_FILTER, FILTERS
 from imugui.fusion.pipeline import Pipeline
-from imugui.recording import UnreadableError, read_samples, write_attitude
+from imugui.recording import UnreadableError, read_samples, samples_file, write_attitude
 from imugui.simulation.errors import PRESETS
 from imugui.simulation.motions import MOTIONS
 
@@ -100,7 +100,7 @@ def _simulate(arguments: argparse.Namespace) -> int:
 
 def _add_fusion(one: argparse.ArgumentParser) -> None:
     one.add_argument("--format", default="auto", choices=["auto", *FORMATS])
-    one.add_argument("--filter", default=DEFAULT_FILTER, choices=list(FILTERS))
+    one.add_argument("--filter", choices=list(FILTERS), help=f"default {DEFAULT_FILTER}, or the recorded one")
     one.add_argument("--no-mag", action="store_true", help="do not use the magnetometer")
 
 
@@ -113,11 +113,12 @@ def _add_replay(one: argparse.ArgumentParser) -> None:
 
 def _replay(arguments: argparse.Namespace) -> int:
     try:
-        capture = read_samples(arguments.file, arguments.format, rate_hz=arguments.rate or 0.0)
-        pipeline = Pipeline(arguments.filter, use_mag=not arguments.no_mag)
+        name = arguments.filter or DEFAULT_FILTER
+        capture = read_samples(samples_file(arguments.file), arguments.format, rate_hz=arguments.rate or 0.0)
+        pipeline = Pipeline(name, use_mag=not arguments.no_mag)
         fused = pipeline.step(capture.rows)
         metadata = {"imugui": __version__, "source": arguments.file.name, "format": capture.format}
-        metadata |= {"filter": arguments.filter, "frame": "ENU, sensor to earth", "found": capture.decoder.seen}
+        metadata |= {"filter": name, "frame": "ENU, sensor to earth", "found": capture.decoder.seen}
         write_attitude(arguments.out, fused, metadata)
     except UnreadableError as error:
         return fail(str(error))
@@ -125,7 +126,7 @@ def _replay(arguments: argparse.Namespace) -> int:
         return fail(f"{error.filename or arguments.file}: {error.strerror or error}")
     counts = capture.decoder.counts
     print(f"{counts.samples} samples, {counts.bad_messages} bad messages, {capture.format}: {capture.decoder.seen}")
-    print(f"{arguments.filter}: {pipeline.mag_updates} magnetometer measurements, {pipeline.restarts} restarts")
+    print(f"{name}: {pipeline.mag_updates} magnetometer measurements, {pipeline.restarts} restarts")
     return OK
 
 
@@ -169,8 +170,11 @@ def _live(arguments: argparse.Namespace) -> int:
 
     places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
     kind, address = next((kind, str(place)) for kind, place in places.items() if place)
-    source = Source(kind, address, arguments.format, arguments.baud, rate_hz=arguments.rate)
-    result = run_session(source, arguments.filter, not arguments.no_mag, arguments.seconds, arguments.record)
+    follow = arguments.filter is None
+    source = Source(kind, address, arguments.format, arguments.baud, rate_hz=arguments.rate, follow=follow)
+    result = run_session(
+        source, arguments.filter or DEFAULT_FILTER, not arguments.no_mag, arguments.seconds, arguments.record
+    )
     if arguments.report:
         try:
             write_report(arguments.report, result.report)

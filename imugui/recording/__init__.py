@@ -12,7 +12,7 @@ from imugui.recording.csv_files import (
     write_samples,
 )
 from imugui.recording.events import Event
-from imugui.recording.folder import SUFFIX, Recording, is_recording, read_recording
+from imugui.recording.folder import SUFFIX, Recording, is_recording, read_recording, samples_file
 
 __all__ = [
     "ATTITUDE_COLUMNS",
@@ -25,6 +25,7 @@ __all__ = [
     "raw",
     "read_recording",
     "read_samples",
+    "samples_file",
     "write_attitude",
     "write_samples",
 ]

@@ -122,6 +122,13 @@ def is_recording(path: Path) -> bool:
     return (path / ABOUT).is_file() or path.name == ABOUT
 
 
+def samples_file(path: Path) -> Path:
+    """The file that holds the samples: of a recording its table, else the path itself."""
+    if not is_recording(path):
+        return path
+    return (path if path.is_dir() else path.parent) / SAMPLES
+
+
 def read_recording(path: Path) -> Recording:
     """Read a recording, as far as it goes; UnreadableError says in one line why it cannot be read."""
     folder = path if path.is_dir() else path.parent

@@ -13,6 +13,7 @@ from imugui.fusion.pipeline import Pipeline
 from imugui.recording.events import Event
 from imugui.ring import Ring
 from imugui.samples import Rows
+from imugui.workers.changes import CHANGES, start_of
 from imugui.workers.recorder import Tap
 from imugui.workers.worker import Worker
 
@@ -62,6 +63,7 @@ class FusionWorker(Worker):
         self.tap: Tap | None = None
         self._running = pipeline
         self._actions: deque[tuple[int, Action]] = deque()
+        self._followed: deque[tuple[int, Action]] = deque()  # what a recording did, while it is replayed
         self._samples = samples
         self._attitude = attitude
         self._count = samples.count
@@ -74,6 +76,7 @@ class FusionWorker(Worker):
     def replace(self, pipeline: Pipeline, carry_on: bool, sample: int = NOW) -> None:
         """Use this pipeline from that sample on; ``carry_on``: from the old one's last attitude, with its origin."""
         self.pipeline = pipeline
+        self._followed.clear()
 
         def exchange(number: int) -> None:
             if carry_on:
@@ -96,10 +99,40 @@ class FusionWorker(Worker):
         """Begin again from the accelerometer at that sample: what comes does not follow what was."""
 
         def begin(number: int) -> None:
+            self._followed.clear()
             self._running.restart()
             self._note("restart", number, "", {})
 
         self.at(sample, begin)
+
+    def follow(self, events: list[Event], sample: int) -> None:
+        """Do from that sample on what was done when these events were recorded, until the user does otherwise.
+
+        KeyError, TypeError or ValueError when the recorded filter cannot be set up here.
+        """
+        start = start_of(events)
+        if start is None:
+            return
+        pipeline = Pipeline.from_state(start.data["pipeline"])
+
+        def begin(_: int) -> None:
+            self._running = self.pipeline = pipeline
+
+        self.at(sample, begin)
+        for event in events:
+            if event.kind in CHANGES:
+                self._followed.append((sample + event.sample, self._as_before(event)))
+
+    def _as_before(self, event: Event) -> Action:
+        def change(_: int) -> None:
+            self._running = self.pipeline = CHANGES[event.kind](self._running, event.data)
+
+        return change
+
+    @property
+    def has_origin(self) -> bool:
+        """Whether the shown attitude is relative to an origin."""
+        return self._running.origin is not None
 
     def begin_tap(self, tap: Tap, sample: int, found: dict[str, Any]) -> None:
         """Start a recording at that sample, noting what the filter knows and what the reader ``found``."""
@@ -135,14 +168,19 @@ class FusionWorker(Worker):
         rows, count, missed = self._samples.since(self._count)
         self.missed_rows += missed
         first, at = count - len(rows), 0
-        while self._actions and max(self._actions[0][0], first + at) <= count:
-            number, action = self._actions.popleft()
+        while (queue := self._due_first(count)) is not None:
+            number, action = queue.popleft()
             cut = max(number - first, at)
             self._fuse(rows[at:cut])
             at = cut
             action(first + at)
         self._fuse(rows[at:])
         self._count = count
+
+    def _due_first(self, count: int) -> deque[tuple[int, Action]] | None:
+        """The queue whose first action comes first, if it is due before sample ``count``."""
+        queues = [queue for queue in (self._actions, self._followed) if queue and queue[0][0] <= count]
+        return min(queues, key=lambda queue: queue[0][0], default=None)
 
     def _fuse(self, rows: Rows) -> None:
         if len(rows) == 0:

@@ -51,8 +51,12 @@ class Intake:
     def opened(self, transport: Any, t: float) -> None:
         """The link was opened, or opened again, at host time t (s)."""
         capture = getattr(transport, "capture", None)
+        recording = getattr(transport, "recording", None)
         if capture is not None:
             self._play(capture)
+        elif recording is not None:
+            self.format, self._timed, self._kept = "recording", True, True
+            self._findings = " ".join((str(recording.about.get("found", "")), *recording.warnings)).strip()
         elif self._decoder is not None:
             self._decoder.resync()
         elif hasattr(transport, "set_baud"):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Signal
 
-from imugui.recording.events import Event
+from imugui.recording import Event, Recording
 from imugui.ring import Ring
 from imugui.samples import Rows
 from imugui.workers.fusion_worker import FusionWorker
@@ -39,6 +39,7 @@ class Reader(Worker):
     """Reads one transport until stopped; a port that fails is tried again by itself."""
 
     changed = Signal()  # the link's phase or format changed
+    told = Signal(str, str)  # tone, sentence
 
     def __init__(self, source: Source, transport: Transport, ring: Ring, fusion: FusionWorker) -> None:
         super().__init__()
@@ -77,6 +78,7 @@ class Reader(Worker):
         self._open = True
         self.link.opened = time.perf_counter()
         self.link.problem = None
+        self._follow(getattr(self._transport, "recording", None))
         self.intake.opened(self._transport, self.link.opened)
         if self._tap is not None:
             self._tap.raw.append((self.link.opened, b""))
@@ -133,6 +135,15 @@ class Reader(Worker):
             self._ring.push(rows)
         if self.intake.format != known:
             self.changed.emit()
+
+    def _follow(self, recording: Recording | None) -> None:
+        """A recording is replayed as it was fused, unless its filter cannot be set up here."""
+        if recording is None or not self.source.follow:
+            return
+        try:
+            self._fusion.follow(recording.events, self._ring.count)
+        except (KeyError, TypeError, ValueError) as error:
+            self.told.emit("warn", f"The recorded filter cannot be set up here ({error}); the chosen one is used.")
 
     def _begin_tap(self) -> None:
         """A recording begins with the next sample: say what is known so far, so that it can be computed again."""

@@ -21,6 +21,7 @@ from imugui.workers.worker import Worker
 
 PERIOD_S = 0.1
 FLUSH_S = 1.0
+FUSION_GRACE_S = 0.5  # how long the end waits for the fusion thread
 LOW_DISK = 500_000_000  # bytes left at which a warning is due
 CATCH_UP = 1 << 14  # rows a step: a long stall is written off piece by piece, so that stopping stays quick
 
@@ -64,6 +65,7 @@ class Recorder(Worker):
         )
         self._tap = tap
         self._counts = [-1, -1]
+        self._length: int | None = None  # how many rows the recording has, once it ends
         self._started = time.perf_counter()
         self._flushed = self._started
         self.rows = 0
@@ -112,9 +114,13 @@ class Recorder(Worker):
             self._look_at_disk()
 
     def _drain_ring(self, index: int, ring: Ring, write: Callable[[Any], None], first: str) -> None:
+        begin = getattr(self._tap, first)
         if self._counts[index] < 0:
-            self._counts[index] = getattr(self._tap, first)
-        rows, self._counts[index], missed = ring.since(self._counts[index])
+            self._counts[index] = begin
+        rows, count, missed = ring.since(self._counts[index])
+        if self._length is not None:
+            rows = rows[: max(0, begin + self._length - (count - len(rows)))]
+        self._counts[index] = count
         self.missed_rows += missed
         for start in range(0, len(rows), CATCH_UP):
             write(rows[start : start + CATCH_UP])
@@ -122,6 +128,13 @@ class Recorder(Worker):
             self.rows += len(rows)
 
     def _drain_all(self) -> None:
+        """The last samples, and the attitudes that belong to them as soon as they are fused."""
+        samples, attitude = (ring for ring, _, _ in self._rings)
+        if self._tap.ready.is_set():
+            self._length = samples.count - self._tap.first_sample
+            until = time.perf_counter() + FUSION_GRACE_S
+            while attitude.count - self._tap.first_attitude < self._length and time.perf_counter() < until:
+                time.sleep(0.002)
         self._drain()
         self._writer.flush()
 

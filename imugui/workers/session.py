@@ -79,6 +79,7 @@ class Session(QObject):
         if isinstance(self._transport, ReplayTransport):
             self._transport.room = self._room
         self._reader.changed.connect(self._link_changed)
+        self._reader.told.connect(self.message)
         self._reader.failed.connect(self._defect)
         self._reader.start()
         if not self._fusion.isRunning():
@@ -151,7 +152,7 @@ class Session(QObject):
 
     @property
     def has_origin(self) -> bool:
-        return self._origin is not None
+        return self._origin is not None or self._fusion.has_origin
 
     def set_origin(self) -> bool:
         """Make the newest attitude the origin; False when there is none."""
@@ -207,8 +208,8 @@ class Session(QObject):
             return None
         if self._reader is not None:
             self._reader.record(None)
-        self._fusion.end_tap()
         recorder.stop()
+        self._fusion.end_tap()
         return recorder.status().path
 
     @property

@@ -21,6 +21,7 @@ class Source:
     baud: int = 0  # 0: find it
     options: Options = NO_OPTIONS
     speed: float = 1.0  # of a replay
+    follow: bool = True  # fuse a recording as it was fused when it was made
     rate_hz: float = 0.0  # of the virtual board, or of a capture without times; 0: the usual one
     errors: str = "mpu9250-calibrated"  # of the virtual board: a key of its error presets
     seed: int = 1

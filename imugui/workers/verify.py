@@ -16,6 +16,7 @@ from imugui.fusion.timing import ArrivalClock, DeviceClock
 from imugui.recording import Event, Recording, UnreadableError, raw, read_recording
 from imugui.recording.folder import RAW
 from imugui.samples import SAMPLE, Rows
+from imugui.workers.changes import CHANGES, start_of
 
 CUT_AT_MOST = 50  # samples at the start of which some bytes lie before the recording
 COMPARED = ("t", "gyr", "acc", "mag", "temp_c", "status", "lat", "lon", "alt", "speed", "course_deg")
@@ -60,9 +61,9 @@ def verify(path: Path) -> Verification:
 
 
 def _start(recording: Recording) -> Event:
-    for event in recording.events:
-        if event.kind == "start":
-            return event
+    start = start_of(recording.events)
+    if start is not None:
+        return start
     raise UnreadableError(f"{recording.folder}: cut off before its first second was written; nothing can be computed")
 
 
@@ -128,30 +129,6 @@ def fuse_again(samples: Rows, start: Event, events: list[Event]) -> Rows:
     except (KeyError, TypeError, ValueError) as error:
         raise UnreadableError(f"the recorded filter cannot be set up again: {error}") from None
     return np.concatenate(blocks)
-
-
-def exchanged(old: Pipeline, data: dict[str, Any]) -> Pipeline:
-    """Another filter or other parameters, as a "filter" event tells."""
-    pipeline = Pipeline.from_settings(data["pipeline"])
-    if data["carry_on"]:
-        pipeline.continue_from(old)
-    return pipeline
-
-
-def with_origin(pipeline: Pipeline, data: dict[str, Any]) -> Pipeline:
-    """The same pipeline with the origin of an "origin" event."""
-    pipeline.set_origin(data["quat"])
-    return pipeline
-
-
-def restarted(pipeline: Pipeline, _: dict[str, Any]) -> Pipeline:
-    """The same pipeline, begun again."""
-    pipeline.restart()
-    return pipeline
-
-
-CHANGES = {"filter": exchanged, "origin": with_origin, "restart": restarted}
-"""What an event of a recording does to the pipeline that runs."""
 
 
 def largest_difference(a: Rows, b: Rows) -> float:
