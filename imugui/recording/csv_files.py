@@ -6,7 +6,7 @@ and in pandas (``comment="#"``).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,7 +18,10 @@ from imugui.fusion.attitude import euler
 from imugui.samples import Rows
 
 ATTITUDE_COLUMNS = "t,qw,qx,qy,qz,roll_deg,pitch_deg,yaw_deg,rest,disturbed"
-BLOCK = 1 << 20
+BLOCK = 1 << 18
+
+Watch = Callable[[float], None]
+"""Is told the share (0 to 1) that is done; raises UnreadableError to give up."""
 
 
 class UnreadableError(Exception):
@@ -34,18 +37,22 @@ class Capture:
     decoder: Decoder
 
 
-def read_samples(path: Path, name: str = "auto", options: Options | None = None, rate_hz: float = 0.0) -> Capture:
+def read_samples(
+    path: Path,
+    name: str = "auto",
+    options: Options | None = None,
+    rate_hz: float = 0.0,
+    watch: Watch | None = None,
+) -> Capture:
     """All samples of a raw capture or sample CSV, in the named format or in the one found.
 
-    A file without times gets ``t`` = k / rate_hz (0: the usual rate of its format). Raises UnreadableError and OSError.
+    A file without times gets ``t`` = k / rate_hz (0: the usual rate of its format). ``watch`` is told the share that
+    was read. Raises UnreadableError and OSError.
     """
     options = options or Options()
     name = _format_of(path, name, options)
     decoder = FORMATS[name].decoder(options)
-    blocks = []
-    with path.open("rb") as stream:
-        while chunk := stream.read(BLOCK):
-            blocks.append(decoder.feed(chunk, 0.0))
+    blocks = [decoder.feed(chunk, 0.0) for chunk in chunks_of(path, watch)]
     blocks.append(decoder.flush(0.0))
     rows = np.concatenate(blocks)
     if len(rows) == 0:
@@ -54,6 +61,16 @@ def read_samples(path: Path, name: str = "auto", options: Options | None = None,
         rows["t"] = np.arange(len(rows)) / (rate_hz or decoder.rate_hz)
     rows["t_arrival"] = np.nan
     return Capture(rows, name, decoder)
+
+
+def chunks_of(path: Path, watch: Watch | None = None) -> Iterator[bytes]:
+    """The bytes of a file in blocks, telling ``watch`` the share that was read; raises OSError, and what it raises."""
+    size = max(1, path.stat().st_size)
+    with path.open("rb") as stream:
+        while chunk := stream.read(BLOCK):
+            yield chunk
+            if watch is not None:
+                watch(stream.tell() / size)
 
 
 def _format_of(path: Path, name: str, options: Options) -> str:

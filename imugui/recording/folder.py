@@ -25,7 +25,7 @@ import numpy as np
 from imugui.formats import FORMATS, Options
 from imugui.formats.csv_line import CsvLineEncoder
 from imugui.recording.attitude_csv import attitude_lines, read_attitude
-from imugui.recording.csv_files import ATTITUDE_COLUMNS, UnreadableError
+from imugui.recording.csv_files import ATTITUDE_COLUMNS, UnreadableError, Watch, chunks_of
 from imugui.recording.events import Event, from_lines, to_line
 from imugui.recording.raw import Chunk, pack
 from imugui.samples import Rows
@@ -129,12 +129,15 @@ def samples_file(path: Path) -> Path:
     return (path if path.is_dir() else path.parent) / SAMPLES
 
 
-def read_recording(path: Path) -> Recording:
-    """Read a recording, as far as it goes; UnreadableError says in one line why it cannot be read."""
+def read_recording(path: Path, watch: Watch | None = None) -> Recording:
+    """Read a recording, as far as it goes; UnreadableError says in one line why it cannot be read.
+
+    ``watch`` is told the share of the samples that was read.
+    """
     folder = path if path.is_dir() else path.parent
     about = _read_about(folder / ABOUT)
     warnings = [] if "ended" in about else ["The recording was cut off: the program or the disk stopped in the middle."]
-    samples, bad = _read_samples(folder / SAMPLES)
+    samples, bad = _read_samples(folder / SAMPLES, watch)
     attitude, bad_attitude = read_attitude(folder / ATTITUDE)
     events, bad_events = _read_events(folder / EVENTS)
     if len(samples) == 0:
@@ -162,13 +165,10 @@ def _read_about(path: Path) -> dict[str, Any]:
     return dict(about)
 
 
-def _read_samples(path: Path) -> tuple[Rows, int]:
+def _read_samples(path: Path, watch: Watch | None) -> tuple[Rows, int]:
     decoder = FORMATS["csv-line"].decoder(Options(family="aligned"))
-    blocks = []
     try:
-        with path.open("rb") as stream:
-            while chunk := stream.read(1 << 20):
-                blocks.append(decoder.feed(chunk, np.nan))
+        blocks = [decoder.feed(chunk, np.nan) for chunk in chunks_of(path, watch)]
     except OSError as error:
         raise UnreadableError(f"{path}: {error.strerror}") from None
     # a last line without its end was cut: it is damage, not data

@@ -29,6 +29,8 @@ class ReplayTransport:
         self.jumped = False  # the rows read last do not follow those before; whoever takes note resets it
         self.room: Callable[[], int] = lambda: BLOCK  # how many rows the receiver can take without losing any
         self._source = source
+        self.progress = 0.0  # share of the file that was read
+        self._cancelled = threading.Event()
         self._wake = threading.Event()
 
     def open(self) -> None:
@@ -37,14 +39,23 @@ class ReplayTransport:
         path = Path(source.address)
         try:
             if is_recording(path):
-                self.recording = read_recording(path)
+                self.recording = read_recording(path, self._watch)
                 rows, events = self.recording.samples, self.recording.events
             else:
-                self.capture = read_samples(path, source.format, source.options, source.rate_hz)
+                self.capture = read_samples(path, source.format, source.options, source.rate_hz, self._watch)
                 rows, events = self.capture.rows, []
         except UnreadableError as error:
             raise ValueError(str(error)) from error
         self.player = Player(rows, events, source.speed)
+
+    def cancel(self) -> None:
+        """Give up reading the file; from any thread."""
+        self._cancelled.set()
+
+    def _watch(self, share: float) -> None:
+        self.progress = share
+        if self._cancelled.is_set():
+            raise UnreadableError("reading was cancelled")
 
     def read(self) -> bytes | Rows:
         player = self.player

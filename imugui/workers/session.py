@@ -23,9 +23,9 @@ from imugui.samples import ATTITUDE, SAMPLE
 from imugui.simulation.motions import MOTIONS
 from imugui.workers import TRANSPORTS
 from imugui.workers.fusion_worker import AgeCounts, FusionWorker
-from imugui.workers.player import Player
+from imugui.workers.player import SPEEDS, Player
 from imugui.workers.reader import Link, Reader
-from imugui.workers.recorder import Recorder, RecordingStatus, Tap, disk_words
+from imugui.workers.recorder import LOW_DISK, Recorder, RecordingStatus, Tap, disk_words
 from imugui.workers.replay_transport import ReplayTransport
 from imugui.workers.serial_transport import Port, list_ports
 from imugui.workers.simulator_transport import SimulatorTransport
@@ -33,7 +33,19 @@ from imugui.workers.status import Status, mag_trust
 from imugui.workers.transport import Source
 from imugui.workers.verdict import Facts, State, Verdict, judge, oddity
 
-__all__ = ["MOTION_TITLES", "Options", "Port", "Session", "Source", "State", "Status"]
+__all__ = [
+    "LOW_DISK",
+    "MOTION_TITLES",
+    "SPEEDS",
+    "Options",
+    "Player",
+    "Port",
+    "RecordingStatus",
+    "Session",
+    "Source",
+    "State",
+    "Status",
+]
 
 RING_ROWS = 1 << 17  # two minutes at 1 kHz
 LOOK_ROWS = 256  # newest rows that the status is judged by
@@ -90,6 +102,8 @@ class Session(QObject):
         """Stop reading, and end a recording; the rings keep what was received."""
         self.stop_recording()
         if self._reader is not None:
+            if isinstance(self._transport, ReplayTransport):
+                self._transport.cancel()
             reader, self._reader, self._transport = self._reader, None, None
             reader.changed.disconnect(self._link_changed)
             reader.stop()
@@ -292,6 +306,7 @@ class Session(QObject):
             phase=link.phase,
             where=reader.source.address,
             problem=link.problem.sentence if link.problem else "",
+            progress=getattr(self._transport, "progress", 0.0),
             problem_kind=link.problem.kind if link.problem else "",
             opened=link.opened,
             byte_t=link.byte_t,

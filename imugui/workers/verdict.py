@@ -63,6 +63,7 @@ class Facts:
     phase: str  # "idle", "opening", "open", "lost", "ended", "failed"
     where: str = ""
     problem: str = ""
+    progress: float = 0.0  # share of a file that was read
     problem_kind: str = ""  # a key of port_errors.SENTENCES
     opened: float = math.nan
     byte_t: float = math.nan  # newest byte
@@ -86,7 +87,8 @@ def _idle(_: Facts) -> Verdict:
 
 
 def _opening(facts: Facts) -> Verdict:
-    return Verdict(State.OPENING, f"Opening {facts.where}.")
+    share = f" {100.0 * facts.progress:.0f} % read." if facts.progress > 0.0 else ""
+    return Verdict(State.OPENING, f"Opening {facts.where}.{share}")
 
 
 def _failed(facts: Facts) -> Verdict:

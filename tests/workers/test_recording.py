@@ -279,3 +279,33 @@ def test_a_copy_is_still_a_recording(recorded: Path, tmp_path: Path) -> None:
 def test_disk_words() -> None:
     assert "free some space" in disk_words(OSError(28, "No space left on device"), Path("x"))
     assert "cannot be written (Read-only" in disk_words(OSError(30, "Read-only file system"), Path("x"))
+
+
+def test_reading_a_long_file_can_be_cancelled(session: Session, qtbot, tmp_path: Path) -> None:
+    path = tmp_path / "long.csv"
+    line = b"0.01,0.0,0.0,9.81,0.0,0.0,0.0\n"
+    path.write_bytes(b"t,ax,ay,az,gx,gy,gz\n" + line * 400_000)
+    session.connect_to(Source("replay", str(path)))
+    qtbot.waitUntil(lambda: "% read" in session.status().sentence, timeout=10_000)
+    session.disconnect_source()
+    assert session.status().state is State.IDLE
+    assert session.samples.count == 0
+
+
+@pytest.mark.parametrize("content", [b"", b"\x00" * 5000, b"hello\n" * 50, bytes(range(256)) * 40, b"t,ax\n1,2\n"])
+def test_a_file_without_samples_is_refused_in_one_line(session: Session, qtbot, tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "odd.bin"
+    path.write_bytes(content)
+    session.connect_to(Source("replay", str(path)))
+    qtbot.waitUntil(lambda: session.status().state is State.FAILED, timeout=5_000)
+    assert "odd.bin" in session.status().sentence
+    assert "\n" not in session.status().sentence
+
+
+def test_a_huge_sparse_file_is_refused_without_reading_it(session: Session, qtbot, tmp_path: Path) -> None:
+    path = tmp_path / "huge.csv"
+    with path.open("wb") as stream:
+        stream.truncate(2 << 30)
+    session.connect_to(Source("replay", str(path)))
+    qtbot.waitUntil(lambda: session.status().state is State.FAILED, timeout=5_000)
+    assert "huge.csv" in session.status().sentence
