@@ -18,6 +18,7 @@ from PySide6.QtGui import QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication
 
 from imugui import paths, settings
+from imugui.calibration.profile_store import ProfileStore
 from imugui.cli import fail, write_report
 from imugui.fields import from_mapping
 from imugui.fusion import DEFAULT_FILTER, FILTERS
@@ -49,7 +50,9 @@ def run_window(arguments: argparse.Namespace) -> int:
     catch_exceptions(window, log)
     window.show()
     source = wanted_source(arguments)
-    if source is not None:
+    if source is not None and source.transport == "replay":
+        window.bar.connect_to("replay", source.address)
+    elif source is not None:
         session.connect_to(source)
     try:
         return app.exec()
@@ -94,7 +97,7 @@ def make_session(store: SettingsStore) -> Session:
     kept = store.store.settings
     name = kept.filter if kept.filter in FILTERS else DEFAULT_FILTER
     params, _ = from_mapping(FILTERS[name].Params, store.store.filters.get(name, {}))
-    return Session(name, params, kept.use_mag)
+    return Session(name, params, kept.use_mag, ProfileStore(paths.user_folder() / "profiles"))
 
 
 def wanted_source(arguments: argparse.Namespace) -> Source | None:

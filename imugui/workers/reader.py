@@ -16,6 +16,7 @@ from imugui.workers.intake import Intake
 from imugui.workers.port_errors import PORT_ERRORS, Problem, explain, explain_file
 from imugui.workers.recorder import Tap
 from imugui.workers.transport import Source, Transport
+from imugui.workers.verdict import Facts
 from imugui.workers.worker import Worker
 
 RETRY_S = 0.25
@@ -57,6 +58,28 @@ class Reader(Worker):
     def record(self, tap: Tap | None) -> None:
         """From the next arrival on leave bytes and events in this tap; None: no more."""
         self._new_tap = tap
+
+    def facts(self, now: float, odd: str) -> Facts:
+        """What is known of the link at host time now (s); ``odd`` says what makes its values impossible."""
+        link, intake = self.link, self.intake
+        return Facts(
+            now=now,
+            phase=link.phase,
+            where=self.source.address,
+            problem=link.problem.sentence if link.problem else "",
+            progress=getattr(self._transport, "progress", 0.0),
+            problem_kind=link.problem.kind if link.problem else "",
+            opened=link.opened,
+            byte_t=link.byte_t,
+            sample_t=link.sample_t,
+            period_s=intake.clock.period,
+            format=intake.format,
+            baud=intake.baud,
+            findings=intake.seen,
+            odd=odd,
+            missing_s=link.missing_s,
+            breaks=link.breaks,
+        )
 
     def step(self) -> None:
         if self.link.phase in ("ended", "failed"):

@@ -47,6 +47,13 @@ def list_ports() -> list[Port]:
     return sorted(ports, key=lambda port: (not port.hint, port.device))
 
 
+def serial_number(device: str) -> str:
+    """The USB serial number of the board on a port, by which it is known again; "" when it has none."""
+    from serial.tools.list_ports import comports
+
+    return next((str(info.serial_number) for info in comports() if info.device == device and info.serial_number), "")
+
+
 def _port(info: Any) -> Port:
     hint = KNOWN_CHIPS.get((info.vid, info.pid), "USB" if info.vid is not None else "")
     description = info.description if info.description not in (None, "n/a") else ""

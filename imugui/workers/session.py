@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
-import datetime
 import math
+import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,19 +13,23 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal, Slot
 
-from imugui import __version__
+from imugui.calibration.profile import Board, Profile
+from imugui.calibration.profile_store import ProfileStore
 from imugui.formats import Options
 from imugui.fusion import DEFAULT_FILTER, FILTERS
+from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
 from imugui.fusion.timing import Meter
 from imugui.ring import Ring
 from imugui.samples import ATTITUDE, SAMPLE
 from imugui.simulation.motions import MOTIONS
 from imugui.workers import TRANSPORTS
+from imugui.workers.board_profile import START_UP_S, BoardProfile
 from imugui.workers.fusion_worker import AgeCounts, FusionWorker
 from imugui.workers.player import SPEEDS, Player
-from imugui.workers.reader import Link, Reader
-from imugui.workers.recorder import LOW_DISK, Recorder, RecordingStatus, Tap, disk_words
+from imugui.workers.reader import Reader
+from imugui.workers.record_control import RecordControl
+from imugui.workers.recorder import LOW_DISK, RecordingStatus, disk_words
 from imugui.workers.replay_transport import ReplayTransport
 from imugui.workers.serial_transport import Port, list_ports
 from imugui.workers.simulator_transport import SimulatorTransport
@@ -49,6 +53,7 @@ __all__ = [
 
 RING_ROWS = 1 << 17  # two minutes at 1 kHz
 LOOK_ROWS = 256  # newest rows that the status is judged by
+START_UP_ROWS = 6000  # newest rows in which a still span is looked for
 
 MOTION_TITLES = {name: motion.title for name, motion in MOTIONS.items()}
 """Motions of the virtual board, by name."""
@@ -60,8 +65,20 @@ class Session(QObject):
     state_changed = Signal(object)  # State
     message = Signal(str, str)  # tone "info", "warn" or "error"; a sentence
 
-    def __init__(self, filter_name: str = DEFAULT_FILTER, params: Any = None, use_mag: bool = True) -> None:
+    def __init__(
+        self,
+        filter_name: str = DEFAULT_FILTER,
+        params: Any = None,
+        use_mag: bool = True,
+        profiles: ProfileStore | None = None,
+    ) -> None:
+        """``profiles``: where boards' calibrations are kept; without it they live as long as the session."""
         super().__init__()
+        self._folder = None if profiles else tempfile.TemporaryDirectory(prefix="imugui-", ignore_cleanup_errors=True)
+        self.profiles = profiles or ProfileStore(Path(self._folder.name if self._folder else ""))
+        self._known: BoardProfile | None = None
+        self._connected = 0.0
+        self._watched = 0
         self.samples = Ring(SAMPLE, RING_ROWS)
         self.attitude = Ring(ATTITUDE, RING_ROWS)
         name = filter_name if filter_name in FILTERS else DEFAULT_FILTER
@@ -69,7 +86,7 @@ class Session(QObject):
         self._fusion.failed.connect(self._defect)
         self._reader: Reader | None = None
         self._transport: Any = None
-        self._recorder: Recorder | None = None
+        self._record = RecordControl(self.samples, self.attitude, self._fusion)
         self._origin: tuple[float, ...] | None = None
         self._meter = Meter()
         self._first_row = 0
@@ -86,7 +103,11 @@ class Session(QObject):
         self.reset_ages()
         self._fusion.missed_rows = 0
         self._origin = None
-        self._fusion.replace(Pipeline(self.filter_name, self.filter_params, use_mag=self.use_mag), carry_on=False)
+        self._known = BoardProfile(self.profiles, source)
+        for warning in self._known.load():
+            self.message.emit("warn", warning)
+        self._connected, self._watched = time.perf_counter(), self.attitude.count
+        self._use(self._known.correction(math.nan), carry_on=False)
         self._reader = Reader(source, self._transport, self.samples, self._fusion)
         if isinstance(self._transport, ReplayTransport):
             self._transport.room = self._room
@@ -107,6 +128,7 @@ class Session(QObject):
             reader, self._reader, self._transport = self._reader, None, None
             reader.changed.disconnect(self._link_changed)
             reader.stop()
+            self._known = None
         self._announce()
 
     def close(self) -> None:
@@ -114,6 +136,8 @@ class Session(QObject):
         self.disconnect_source()
         if self._fusion.isRunning():
             self._fusion.stop()
+        if self._folder is not None:
+            self._folder.cleanup()
 
     @property
     def source(self) -> Source | None:
@@ -159,6 +183,11 @@ class Session(QObject):
     def use_mag(self) -> bool:
         return self._fusion.pipeline.use_mag
 
+    @property
+    def fusion_settings(self) -> dict[str, Any]:
+        """All that was chosen for the fusion, as plain values: filter, parameters, correction, magnetometer, origin."""
+        return self._fusion.pipeline.settings()
+
     def set_filter(self, name: str, params: Any = None, use_mag: bool = True) -> None:
         """Replace the pipeline whole; the new filter starts from the last attitude and keeps the origin."""
         old = self._fusion.pipeline
@@ -195,48 +224,89 @@ class Session(QObject):
         """Count ages anew."""
         self._fusion.ages = AgeCounts()
 
+    # calibration
+
+    @property
+    def board(self) -> Board | None:
+        """Whose calibration is in use; None while nothing is connected, or a file is."""
+        return self._known.board if self._known and self._known.board.address else None
+
+    @property
+    def profile(self) -> Profile | None:
+        """The calibration in use."""
+        return self._known.profile if self._known else None
+
+    def apply_profile(self, profile: Profile) -> bool:
+        """Keep a profile as that of the connected board, and use it from now on; False, and a message, if it fails."""
+        return self._change_profile(lambda known: known.keep(profile))
+
+    def remove_profile(self) -> bool:
+        """Delete the connected board's profile, and use none."""
+        return self._change_profile(lambda known: known.forget())
+
+    def _change_profile(self, change: Callable[[BoardProfile], None]) -> bool:
+        if self._known is None:
+            self.message.emit("warn", "Connect a board first: a profile belongs to a board.")
+            return False
+        try:
+            change(self._known)
+        except OSError as error:
+            self.message.emit("error", f"The profile could not be written: {error.strerror or error}. Nothing changed.")
+            return False
+        newest = self.samples.last(1)
+        self._use(self._known.correction(float(newest["temp_c"][0]) if len(newest) else math.nan), carry_on=False)
+        return True
+
+    def _use(self, correction: Correction, carry_on: bool) -> None:
+        """Fuse with this correction from now on; not ``carry_on``: from the accelerometer and field, anew."""
+        pipeline = Pipeline(self.filter_name, self.filter_params, correction, self.use_mag, self._origin)
+        self._fusion.replace(pipeline, carry_on)
+
+    def _look_after(self, now: float) -> None:
+        """What the calibration does by itself: the bias of a board that lies still, the alarm on the field."""
+        if self._known is None:
+            return
+        rows, self._watched, _ = self.attitude.since(self._watched)
+        self._known.watch(rows)
+        connected = now - self._connected
+        if connected < START_UP_S:
+            raw = self.samples.last(min(START_UP_ROWS, self.samples.count - self._first_row))
+            found = self._known.start_up_bias(raw, connected)
+            if found is not None:
+                self._use(found, carry_on=True)
+                self.message.emit("info", "The board lay still: its gyroscope bias was taken by itself.")
+
     # recording
 
     def record(self, folder: Path, label: str = "", note: str = "") -> bool:
         """Begin a recording in a new folder; False, and a message, when the disk refuses or nothing is connected."""
-        if self._reader is None or self.recording is not None:
+        if self._reader is None:
             self.message.emit("warn", "Connect a board first: there is nothing to record.")
             return False
-        tap = Tap()
+        if self.recording is not None:
+            self.message.emit("warn", "A recording runs already.")
+            return False
         try:
-            about = describe(self._reader, self._fusion.pipeline, label, note)
-            self._recorder = Recorder(folder, about, self.samples, self.attitude, tap)
+            recorder = self._record.start(folder, self._reader, label, note)
         except OSError as error:
             self.message.emit("error", disk_words(error, folder))
             return False
-        self._recorder.failed.connect(self._defect)
-        self._recorder.stopped_by_disk.connect(self._disk_failed)
-        self._reader.record(tap)
-        self._recorder.start()
+        recorder.failed.connect(self._defect)
+        recorder.stopped_by_disk.connect(self._disk_failed)
         return True
 
     def stop_recording(self) -> Path | None:
         """End the recording in order; its folder, or None when there was none."""
-        recorder, self._recorder = self._recorder, None
-        if recorder is None:
-            return None
-        if self._reader is not None:
-            self._reader.record(None)
-        recorder.stop()
-        self._fusion.end_tap()
-        return recorder.status().path
+        return self._record.stop(self._reader)
 
     @property
     def recording(self) -> RecordingStatus | None:
         """The recording that runs, or None."""
-        return self._recorder.status() if self._recorder is not None else None
+        return self._record.status
 
     def mark(self, text: str = "") -> bool:
         """Note a marker in the recording at this moment; False when there is none."""
-        if self._recorder is None:
-            return False
-        self._fusion.mark(text)
-        return True
+        return self._record.mark(text)
 
     @property
     def player(self) -> Player | None:
@@ -250,11 +320,12 @@ class Session(QObject):
         now = time.perf_counter()
         verdict = self._verdict(now)
         self._note(verdict.state)
+        self._look_after(now)
         reader = self._reader
         if reader is None:
             return Status(verdict.state, verdict.sentence, filter=self.filter_name)
         fused = self.attitude.last(min(LOOK_ROWS, self.attitude.count))
-        trust, norm = mag_trust(fused, self.use_mag, calibrated=self._fusion.pipeline.correction.has_mag)
+        trust, norm = mag_trust(fused, self.use_mag, self._known is not None and self._known.has_mag, self._light)
         self._meter.add(now, self.samples.count)
         counts, clock = reader.intake.counts, reader.intake.clock
         newest = self.samples.last(1)
@@ -276,6 +347,8 @@ class Session(QObject):
             age_ms=(now - float(newest["t_arrival"][0])) * 1e3 if len(newest) else math.nan,
             has_mag=trust != "none",
             mag_trust=trust,
+            mag_alarm=self._light,
+            profile=self.profile.board.title if self.profile else "",
             mag_norm_ut=norm,
             temp_c=float(newest["temp_c"][0]) if len(newest) else math.nan,
             filter=self.filter_name,
@@ -287,6 +360,10 @@ class Session(QObject):
         period = self._reader.intake.clock.period if self._reader else math.nan
         return 1.0 / period if period > 0.0 else 0.0
 
+    @property
+    def _light(self) -> str:
+        return self._known.light if self._known else "off"
+
     def _rate(self, now: float, state: State) -> float:
         """The fitted rate while samples come; 0 when they do not."""
         if state not in (State.STREAMING, State.IMPOSSIBLE):
@@ -297,28 +374,8 @@ class Session(QObject):
         reader = self._reader
         if reader is None:
             return judge(Facts(now, "idle"))
-        return judge(self._facts(now, reader, reader.link))
-
-    def _facts(self, now: float, reader: Reader, link: Link) -> Facts:
-        new = min(LOOK_ROWS, self.samples.count - self._first_row)
-        return Facts(
-            now=now,
-            phase=link.phase,
-            where=reader.source.address,
-            problem=link.problem.sentence if link.problem else "",
-            progress=getattr(self._transport, "progress", 0.0),
-            problem_kind=link.problem.kind if link.problem else "",
-            opened=link.opened,
-            byte_t=link.byte_t,
-            sample_t=link.sample_t,
-            period_s=reader.intake.clock.period,
-            format=reader.intake.format,
-            baud=reader.intake.baud,
-            findings=reader.intake.seen,
-            odd=oddity(self.samples.last(new)),
-            missing_s=link.missing_s,
-            breaks=link.breaks,
-        )
+        newest = self.samples.last(min(LOOK_ROWS, self.samples.count - self._first_row))
+        return judge(reader.facts(now, oddity(newest)))
 
     def _room(self) -> int:
         """How many rows the fusion thread can still take without missing any."""
@@ -353,22 +410,3 @@ class Session(QObject):
         if state is not self._last_state:
             self._last_state = state
             self.state_changed.emit(state)
-
-
-def describe(reader: Reader, pipeline: Pipeline, label: str, note: str) -> dict[str, Any]:
-    """What a recording says about itself."""
-    source = reader.source
-    return {
-        "made_by": f"imugui {__version__}",
-        "started_utc": datetime.datetime.now(datetime.UTC).isoformat(timespec="milliseconds"),
-        "label": label,
-        "note": note,
-        "transport": source.transport,
-        "board": source.address,
-        "format": reader.intake.format,
-        "found": reader.intake.seen,
-        "frame": "quaternions (w, x, y, z) sensor to earth, earth east-north-up",
-        "units": "s, m/s2, rad/s, uT, deg C, deg, m, m/s",
-        "source": dataclasses.asdict(source),
-        "fusion": pipeline.settings(),
-    }

@@ -32,14 +32,15 @@ class Status:
     age_ms: float = math.nan
     has_mag: bool = False
     mag_trust: str = "none"  # "none", "off", "disturbed", "uncalibrated", "good"
+    mag_alarm: str = "off"  # "off", "green", "yellow", "red": the field against the calibration's
     mag_norm_ut: float = math.nan
     temp_c: float = math.nan
     profile: str = ""
     filter: str = ""
 
 
-def mag_trust(rows: Rows, use_mag: bool, calibrated: bool) -> tuple[str, float]:
-    """(word, median field in uT) from the newest ATTITUDE rows, shape (n,).
+def mag_trust(rows: Rows, use_mag: bool, calibrated: bool, alarm: str = "off") -> tuple[str, float]:
+    """(word, median field in uT) from the newest ATTITUDE rows, shape (n,), and the light of the field's alarm.
 
     A field that is merely quiet may still be off by tens of degrees: it is "good" only with a calibration.
     """
@@ -49,6 +50,6 @@ def mag_trust(rows: Rows, use_mag: bool, calibrated: bool) -> tuple[str, float]:
     norm = float(np.median(np.linalg.norm(mag, axis=1)))
     if not use_mag:
         return "off", norm
-    if float(np.mean(rows["disturbed"])) > 0.5:
+    if alarm == "red" or float(np.mean(rows["disturbed"])) > 0.5:
         return "disturbed", norm
     return ("good" if calibrated else "uncalibrated"), norm

@@ -1,0 +1,101 @@
+"""What is known of the board that is connected: its identity, its profile, the alarm on its field."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+
+from imugui.calibration.alarm import FieldAlarm
+from imugui.calibration.profile import Board, Profile
+from imugui.calibration.profile_file import ProfileError
+from imugui.calibration.profile_store import ProfileStore
+from imugui.calibration.rest import auto_bias
+from imugui.fusion.correction import Correction
+from imugui.samples import Rows
+from imugui.workers.serial_transport import serial_number
+from imugui.workers.transport import Source
+
+START_UP_S = 12.0  # how long after connecting a board that lies still gives its gyroscope bias by itself
+TRY_EVERY_S = 1.0
+ALARM_ROWS = 4096
+
+
+def board_of(source: Source) -> Board:
+    """Whose profile a source uses; a file has none of its own."""
+    if source.transport == "serial":
+        return Board("serial", serial_number(source.address) or source.address)
+    if source.transport == "simulator":
+        return Board("simulator", f"{source.errors}, seed {source.seed}", f"Simulated board {source.seed}")
+    return Board()
+
+
+class BoardProfile:
+    """The profile in use. Told of rows and time by the session; writes a file only when told to keep a profile."""
+
+    def __init__(self, store: ProfileStore, source: Source) -> None:
+        self.store = store
+        self.board = board_of(source)
+        self.profile: Profile | None = None
+        self.alarm: FieldAlarm | None = None
+        self._tried = -math.inf
+        self._bias_known = source.transport == "replay"
+
+    def load(self) -> list[str]:
+        """Find the board's profile; returns a sentence for each thing the user should know."""
+        if not self.board.address:
+            return []
+        try:
+            profile = self.store.find(self.board)
+        except (ProfileError, OSError) as error:
+            return [f"The profile of {self.board.title} is not applied: {error}"]
+        self._use(profile)
+        return profile.warnings(datetime.now(UTC)) if profile else []
+
+    def keep(self, profile: Profile) -> None:
+        """Save a profile as this board's and use it; raises OSError."""
+        profile = replace(profile, board=replace(self.board, name=profile.board.name or self.board.name))
+        if self.board.address:
+            self.store.save(profile)
+        self._use(profile)
+
+    def forget(self) -> None:
+        """Use no profile any more, and delete its file; raises OSError."""
+        self.store.remove(self.board)
+        self._use(None)
+
+    def correction(self, temp_c: float) -> Correction:
+        """What the pipeline takes out of every sample, at a temperature in deg C (NaN: not known)."""
+        return self.profile.correction(temp_c) if self.profile else Correction()
+
+    def start_up_bias(self, rows: Rows, connected_s: float) -> Correction | None:
+        """Once, if the board lies still in these raw SAMPLE rows (n,): the correction with today's gyroscope bias."""
+        if self._bias_known or connected_s > START_UP_S or connected_s - self._tried < TRY_EVERY_S:
+            return None
+        self._tried = connected_s
+        found = auto_bias(rows)
+        if not found.accepted:
+            return None
+        self._bias_known = True
+        return replace(self.correction(found.temp_c), gyr_bias=found.bias)
+
+    def watch(self, rows: Rows) -> str:
+        """The alarm's light after new ATTITUDE rows, shape (n,): "off", "green", "yellow" or "red"."""
+        return self.alarm.feed(rows[-ALARM_ROWS:]) if self.alarm and len(rows) else self.light
+
+    @property
+    def light(self) -> str:
+        return self.alarm.light if self.alarm else "off"
+
+    @property
+    def has_mag(self) -> bool:
+        """Whether the magnetometer was calibrated."""
+        return self.profile is not None and self.profile.magnetometer is not None
+
+    def _use(self, profile: Profile | None) -> None:
+        self.profile, self.alarm = profile, None
+        part = profile.magnetometer if profile else None
+        if part is not None and part.field_ut > 0.0:
+            self.alarm = FieldAlarm(part.field_ut, part.dip_deg if np.isfinite(part.dip_deg) else None)
