@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from imugui.formats.column_map import ColumnMap
 from imugui.samples import Rows
 
 
@@ -17,6 +18,7 @@ class Options:
     family: str = ""  # key of FAMILIES, "" = the format's own
     columns: tuple[str, ...] = ()  # csv-line: names with units, such as ("t_s", "ax_g"); () = from the header line
     delimiter: str = ""  # csv-line: "," "\t" ";" or " "; "" = found by itself
+    tables: tuple[ColumnMap, ...] = ()  # of a file: what its tables hold and how they are written; () = guessed
 
 
 @dataclass

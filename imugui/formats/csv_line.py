@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from operator import mul
 
 from imugui.formats.base import Encoder, Options
+from imugui.formats.column_map import ColumnMap
 from imugui.formats.columns import POSITION, STATUS, Table, table_from
 from imugui.formats.families import family
 from imugui.formats.lines import LineDecoder, readable
@@ -32,6 +33,8 @@ DELIMITERS = (b",", b";", b"\t", b" ")
 EXPONENT_NUMBER_CHARS = NUMBER_CHARS + b"eE"
 PADDED_NUMBER_CHARS = EXPONENT_NUMBER_CHARS + b" "
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+REPLACED = ((b" sec", b""), (b",", b"."))
+"""In files with a column map: the unit that MATLAB's timetables write after each time; decimal commas."""
 LONGEST_HEADER = 1000  # bytes
 HEADER_NAMES = 3  # so many known names make a line a header
 NO_HEADER = "numbers without a header line: name the columns and units once"
@@ -50,7 +53,8 @@ class CsvLineDecoder(LineDecoder):
 
     SEPARATORS = b",;\t "
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: Options, column_map: ColumnMap | None = None) -> None:
+        """``column_map``: how a file is written, and what its columns mean; some sensors may then be missing."""
         super().__init__()
         self._mag_axes = family(options.family, FAMILY).mag_axes
         self._named = options.columns
@@ -58,8 +62,32 @@ class CsvLineDecoder(LineDecoder):
         self._table: Table | None = None
         self._number_chars = PADDED_NUMBER_CHARS
         self._watch = GravityWatch()
+        self._replaced: tuple[tuple[bytes, bytes], ...] = ()
+        self._kept: tuple[int, float] | None = None
         self.seen = "no header line yet"
         self.rate_hz = RATE_HZ
+        if column_map:
+            self._follow(column_map)
+
+    @property
+    def table(self) -> Table | None:
+        """How lines become rows, once that is known."""
+        return self._table
+
+    def feed(self, chunk: bytes, t: float) -> Rows:
+        """The SAMPLE rows, shape (n,), that ``chunk`` completes; t is its host arrival time, s."""
+        for old, new in self._replaced:
+            chunk = chunk.replace(old, new)
+        return super().feed(chunk, t)
+
+    def _follow(self, column_map: ColumnMap) -> None:
+        self._named = column_map.columns
+        self._replaced = REPLACED if column_map.decimal == "," else REPLACED[:1]
+        if column_map.keep_column >= 0:
+            self._kept = column_map.keep_column, column_map.keep_value
+        self.partial = True
+        self.rate_hz = column_map.rate_hz or RATE_HZ
+        self._adopt(table_from(self._named, column_map.delimiter.encode(), self._mag_axes, partial=True))
 
     def _line(self, line: bytes) -> None:
         table = self._table
@@ -74,8 +102,12 @@ class CsvLineDecoder(LineDecoder):
         self._accept(table, values, line)
 
     def _accept(self, table: Table, values: list[float], line: bytes) -> None:
+        if self._kept and values[self._kept[0]] != self._kept[1]:
+            return
         if table.factors:
             values = list(map(mul, values, table.factors))
+        for place, added in table.sums:
+            values[place] += values[added]
         values += (NAN, NO_STATUS)
         place = table.indices[STATUS]
         status = values[place]
@@ -92,7 +124,7 @@ class CsvLineDecoder(LineDecoder):
         reason = self._emit(t, row)
         if reason:
             self._bad(reason, line)
-        elif not self._watch.trusted and self._watch.update(*row[3:6]):
+        elif table.force == "total" and not self._watch.trusted and self._watch.update(*row[3:6]):
             self.seen = f"{table.words} {self._watch.doubt}".strip()
             self._note(self.seen)
 

@@ -41,6 +41,7 @@ class LineDecoder(Decoder):
 
     def __init__(self) -> None:
         super().__init__()
+        self.partial = False  # some sensors may be missing
         self._t = 0.0
         self._pending = b""
         self._skipped = 0  # bytes of the overlong line that is being dropped
@@ -118,8 +119,8 @@ class LineDecoder(Decoder):
         gx, gy, gz, ax, ay, az, mx, my, mz, temp, status, lat, lon, alt, speed, course = row
         # written out because every row passes here: a quick look that is True only where fault() finds nothing
         if not (
-            0 < ax * ax + ay * ay + az * az < ACC_LIMIT2
-            and gx * gx + gy * gy + gz * gz < GYR_LIMIT2
+            (0 < ax * ax + ay * ay + az * az < ACC_LIMIT2 or (ax is NAN and self.partial))
+            and (gx * gx + gy * gy + gz * gz < GYR_LIMIT2 or (gx is NAN and self.partial))
             and (mx is NAN or 0 < mx * mx + my * my + mz * mz < MAG_LIMIT2)
             and (temp is NAN or -TEMP_LIMIT < temp < TEMP_LIMIT)
             and (
@@ -133,7 +134,7 @@ class LineDecoder(Decoder):
                 )
             )
         ):
-            reason = fault(row)
+            reason = fault(row, self.partial)
             if reason:
                 return reason
             mx, my, mz = field_or_nan(mx, my, mz)

@@ -97,12 +97,15 @@ def looks_numeric(line: bytes, separators: bytes, at_least: int) -> bool:
     return how_many(line, separators) >= at_least and 3 * how_many(line, DIGITS) >= len(line)
 
 
-def fault(row: Row) -> str:
-    """Why no sensor of ours can have measured this, in words; empty when it can."""
+def fault(row: Row, partial: bool = False) -> str:
+    """Why no sensor of ours can have measured this, in words; empty when it can.
+
+    Acceleration and turn rate must be there, unless ``partial``.
+    """
     gyr, acc, mag, temp, position = row[0:3], row[3:6], row[6:9], row[9], row[11:]
-    if not math.hypot(*acc) < ACC_LIMIT:  # so that NaN is caught too
+    if not (math.hypot(*acc) < ACC_LIMIT or (partial and math.isnan(sum(acc)))):  # so that NaN is caught too
         return "impossible acceleration"
-    if not math.hypot(*gyr) < GYR_LIMIT:
+    if not (math.hypot(*gyr) < GYR_LIMIT or (partial and math.isnan(sum(gyr)))):
         return "impossible turn rate"
     if not any(acc) and not any(gyr):
         return ALL_ZERO

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from imugui.formats import FORMATS, Decoder, Options
-from imugui.formats.detect import detect_file
+from imugui.formats.layout import TableError
+from imugui.formats.plan import read_foreign
 from imugui.fusion.attitude import euler
 from imugui.samples import Rows
 
@@ -44,13 +45,19 @@ def read_samples(
     rate_hz: float = 0.0,
     watch: Watch | None = None,
 ) -> Capture:
-    """All samples of a raw capture or sample CSV, in the named format or in the one found.
+    """All samples of a raw capture or a table, in the named format or in the one found; foreign tables as guessed.
 
     A file without times gets ``t`` = k / rate_hz (0: the usual rate of its format). ``watch`` is told the share that
     was read. Raises UnreadableError and OSError.
     """
     options = options or Options()
-    name = _format_of(path, name, options)
+    try:
+        found = read_foreign(path, options, rate_hz, watch) if name == "auto" or options.tables else name
+    except TableError as error:
+        raise UnreadableError(f"{path}: {error}") from error
+    if not isinstance(found, str):
+        return Capture(found[0], "csv-line", found[1])
+    name = found
     decoder = FORMATS[name].decoder(options)
     blocks = [decoder.feed(chunk, 0.0) for chunk in chunks_of(path, watch)]
     blocks.append(decoder.flush(0.0))
@@ -71,15 +78,6 @@ def chunks_of(path: Path, watch: Watch | None = None) -> Iterator[bytes]:
             yield chunk
             if watch is not None:
                 watch(stream.tell() / size)
-
-
-def _format_of(path: Path, name: str, options: Options) -> str:
-    if name != "auto":
-        return name
-    found = detect_file(path, options)
-    if not found.format:
-        raise UnreadableError(f"{path}: {found.sentence}")
-    return found.format
 
 
 def write_attitude(path: Path, rows: Rows, metadata: Mapping[str, object]) -> None:

@@ -77,7 +77,7 @@ class SourceBox(StillBox):
         super().__init__("Source", "Where the data come from. Serial ports appear by themselves")
         self.setMaxVisibleItems(24)
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.setMinimumContentsLength(13)
+        self.setMinimumContentsLength(11)
         self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self._ports: list[Port] = []
         self._extra: list[Choice] = []

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from imugui.formats.columns import SLOTS, read_name, table_from
+from imugui.formats.columns import MAP_NAMES, SLOTS, read_name, table_from
 from imugui.formats.families import ALIGNED
 from imugui.samples import GRAVITY
 
@@ -24,6 +24,8 @@ from imugui.samples import GRAVITY
         ("ax_mg", "ax", GRAVITY / 1000),
         ("ax_g/16384", "ax", GRAVITY / 16384),
         ("ax_g * 0.5", "ax", GRAVITY / 2),
+        ("ax_g*-1", "ax", -GRAVITY),
+        ("ax_g/-16384", "ax", -GRAVITY / 16384),
         ("gx_rads", "gx", 1.0),
         ("Gyroscope x (rad/s)", "gx", 1.0),
         ("gyro_z [mdps]", "gz", math.pi / 180_000),
@@ -68,6 +70,31 @@ def test_unknown_units_are_told(name: str) -> None:
 def test_no_name_raises(name: str) -> None:
     column = read_name(name)
     assert column is None or column.slot in SLOTS
+
+
+def test_the_parts_of_an_acceleration_are_known_to_column_maps_only() -> None:
+    assert read_name("gravx_g") is None
+    column = read_name("gravx_g", MAP_NAMES)
+    assert column is not None
+    assert (column.slot, column.factor) == ("gravx", GRAVITY)
+
+
+@pytest.mark.parametrize(
+    ("names", "force", "sums"),
+    [
+        (("ax", "ay", "az"), "total", ()),
+        (("linx", "liny", "linz"), "linear", ()),
+        (("gravx", "gravy", "gravz"), "gravity", ()),
+        (("linx", "liny", "linz", "gravx", "gravy", "gravz"), "total", ((0, 3), (1, 4), (2, 5))),
+        (("linx", "liny", "linz", "ax", "ay", "az"), "total", ()),
+        (("mx", "my", "mz"), "", ()),
+    ],
+)
+def test_what_the_acceleration_of_a_partial_table_is(
+    names: tuple[str, ...], force: str, sums: tuple[tuple[int, int], ...]
+) -> None:
+    table = table_from(names, b",", ALIGNED, partial=True)
+    assert (table.problem, table.force, table.sums) == ("", force, sums)
 
 
 def test_a_table_says_what_is_missing() -> None:

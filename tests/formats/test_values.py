@@ -71,6 +71,15 @@ def test_a_good_row_has_no_fault() -> None:
     assert fault([*GOOD[:6], NAN, NAN, NAN, NAN, -1, *NO_GNSS]) == ""
 
 
+def test_a_row_of_some_sensors_only_has_no_fault_when_that_is_meant() -> None:
+    for missing in (slice(0, 3), slice(3, 6), slice(0, 6)):
+        row = list(GOOD)
+        row[missing] = [NAN] * len(row[missing])
+        assert fault(row).startswith("impossible")
+        assert fault(row, partial=True) == ""
+    assert fault([*GOOD[:3], 1e6, 0.0, 0.0, *GOOD[6:]], partial=True) == "impossible acceleration"
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
