@@ -12,15 +12,21 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from imugui import __version__
-from imugui.formats import FORMATS
+from imugui.calibration.profile_file import ProfileError, load
+from imugui.formats import FORMATS, Options
+from imugui.formats.column_map import NOT_USED
 from imugui.fusion import DEFAULT_FILTER, FILTERS
+from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
 from imugui.recording import UnreadableError, read_samples, samples_file, write_attitude
+from imugui.samples import Rows
 from imugui.simulation.errors import PRESETS
 from imugui.simulation.motions import MOTIONS
 
-OK, FAILED = 0, 2
+OK, FAILED, REFUSED = 0, 2, 3
 NOTE = "A research tool, not a medical device."
 
 
@@ -102,31 +108,88 @@ def _add_fusion(one: argparse.ArgumentParser) -> None:
     one.add_argument("--format", default="auto", choices=["auto", *FORMATS])
     one.add_argument("--filter", choices=list(FILTERS), help=f"default {DEFAULT_FILTER}, or the recorded one")
     one.add_argument("--no-mag", action="store_true", help="do not use the magnetometer")
+    text = "a table's columns with units, such as t_ms,ax_g,ay_g,az_g,,gx_dps,gy_dps,gz_dps; an empty name skips one"
+    one.add_argument("--columns", type=_columns, default=Options(), metavar="NAMES", help=text)
+
+
+def _columns(text: str) -> Options:
+    return Options(columns=tuple(name.strip() or NOT_USED for name in text.split(",")))
 
 
 def _add_replay(one: argparse.ArgumentParser) -> None:
     one.add_argument("file", type=Path)
     _add_fusion(one)
     one.add_argument("--rate", type=float, help="samples per second of a capture without times, Hz")
+    one.add_argument("--profile", type=Path, help="apply this board's calibration")
     one.add_argument("--out", type=Path, required=True, help="the attitude CSV to write")
 
 
 def _replay(arguments: argparse.Namespace) -> int:
     try:
         name = arguments.filter or DEFAULT_FILTER
-        capture = read_samples(samples_file(arguments.file), arguments.format, rate_hz=arguments.rate or 0.0)
-        pipeline = Pipeline(name, use_mag=not arguments.no_mag)
+        path = samples_file(arguments.file)
+        capture = read_samples(path, arguments.format, arguments.columns, arguments.rate or 0.0)
+        if missing := missing_sensors(capture.rows):
+            return fail(f"{path}: no attitude without {missing}. Found: {capture.decoder.seen}")
+        correction = _correction(arguments.profile, capture.rows) if arguments.profile else None
+        pipeline = Pipeline(name, correction=correction, use_mag=not arguments.no_mag)
         fused = pipeline.step(capture.rows)
         metadata = {"imugui": __version__, "source": arguments.file.name, "format": capture.format}
         metadata |= {"filter": name, "frame": "ENU, sensor to earth", "found": capture.decoder.seen}
+        metadata |= {"profile": arguments.profile.name} if arguments.profile else {}
         write_attitude(arguments.out, fused, metadata)
-    except UnreadableError as error:
+    except (UnreadableError, ProfileError) as error:
         return fail(str(error))
     except OSError as error:
         return fail(f"{error.filename or arguments.file}: {error.strerror or error}")
     counts = capture.decoder.counts
     print(f"{counts.samples} samples, {counts.bad_messages} bad messages, {capture.format}: {capture.decoder.seen}")
     print(f"{name}: {pipeline.mag_updates} magnetometer measurements, {pipeline.restarts} restarts")
+    return OK
+
+
+def missing_sensors(rows: Rows) -> str:
+    """Which sensor that an attitude needs is in none of the SAMPLE rows, in words; "" when none is missing."""
+    needed = {"acc": "an accelerometer", "gyr": "a gyroscope"}
+    return " and ".join(words for name, words in needed.items() if not np.isfinite(rows[name]).any())
+
+
+def _correction(path: Path, rows: Rows) -> Correction:
+    """What a profile makes of these SAMPLE rows, at their own temperature; raises ProfileError and OSError."""
+    known = rows["temp_c"][np.isfinite(rows["temp_c"])]
+    return load(path).correction(float(np.median(known)) if len(known) else math.nan)
+
+
+# calibrate
+
+
+def _add_calibrate(one: argparse.ArgumentParser) -> None:
+    one.add_argument("what", choices=["gyr", "acc", "mag"])
+    one.add_argument("files", type=Path, nargs="+", metavar="FILE", help="recordings, sample CSVs or captures")
+    one.add_argument("--out", type=Path, required=True, help="the profile to write, JSON")
+    one.add_argument("--profile", type=Path, help="a profile whose other parts are kept")
+    one.add_argument("--certificate", type=Path, help="also write the certificate here, HTML")
+    one.add_argument("--name", help="what to call the board")
+    one.add_argument("--method", choices=["many", "six", "flat", "free-fall"], default="many", help="acc: which way")
+    one.add_argument("--whole-turns", action="store_true", help="gyr: the file holds turns of exactly 360 degrees")
+    one.add_argument("--field", type=float, metavar="UT", help="mag: the field expected at the place, microtesla")
+    one.add_argument("--format", default="auto", choices=["auto", *FORMATS])
+    one.add_argument("--columns", type=_columns, default=Options(), metavar="NAMES", help="as in replay")
+    one.add_argument("--rate", type=float, help="samples per second of a capture without times, Hz")
+
+
+def _calibrate(arguments: argparse.Namespace) -> int:
+    from imugui.calibrate import RefusedError, calibrate, order_of
+
+    try:
+        print(calibrate(order_of(arguments)))
+    except RefusedError as refusal:
+        fail(f"refused: {refusal}")
+        return REFUSED
+    except (UnreadableError, ProfileError) as error:
+        return fail(str(error))
+    except OSError as error:
+        return fail(f"{error.filename or arguments.out}: {error.strerror or error}")
     return OK
 
 
@@ -171,7 +234,9 @@ def _live(arguments: argparse.Namespace) -> int:
     places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
     kind, address = next((kind, str(place)) for kind, place in places.items() if place)
     follow = arguments.filter is None
-    source = Source(kind, address, arguments.format, arguments.baud, rate_hz=arguments.rate, follow=follow)
+    source = Source(
+        kind, address, arguments.format, arguments.baud, arguments.columns, rate_hz=arguments.rate, follow=follow
+    )
     result = run_session(
         source, arguments.filter or DEFAULT_FILTER, not arguments.no_mag, arguments.seconds, arguments.record
     )
@@ -209,5 +274,6 @@ COMMANDS = {
     "simulate": (_add_simulate, _simulate, "a virtual board on a pseudo-terminal, until stopped"),
     "live": (_add_live, _live, "read a board, fuse, and report"),
     "verify": (_add_verify, _verify, "compute a recording again from its raw bytes and compare"),
+    "calibrate": (_add_calibrate, _calibrate, "find what is wrong with a board's sensors, from recordings"),
     "replay": (_add_replay, _replay, "fuse a file as fast as it goes, and write the attitude"),
 }

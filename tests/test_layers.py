@@ -7,6 +7,7 @@ import importlib.util
 import os
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -22,7 +23,7 @@ RANKS = {
     ),
     "workers": NO_QT_BELOW,
     "views": 4,
-    **dict.fromkeys(("app", "cli", "__main__"), 5),
+    **dict.fromkeys(("app", "cli", "calibrate", "__main__"), 5),
 }
 QT = ("PySide6", "shiboken6", "pyqtgraph")
 # an outside package -> the ranks that may import it
@@ -255,3 +256,14 @@ def test_a_planted_banned_thing_is_reported(tmp_path: Path, code: str, said: str
 def test_qts_own_exec_is_allowed(tmp_path: Path) -> None:
     plant(tmp_path, "imugui/app.py", "import subprocess\napp.exec()\nsubprocess.run(['ls'], shell=False)")
     assert banned_problems(tmp_path) == []
+
+
+def test_every_package_is_installed() -> None:
+    """The list in pyproject is complete: a package that is missing there is missing from an installed program."""
+    listed = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"][
+        "packages"
+    ]
+    found = {
+        ".".join(path.parent.relative_to(REPOSITORY).parts) for path in (REPOSITORY / "imugui").rglob("__init__.py")
+    }
+    assert set(listed) == found | {"imugui.resources", "imugui.resources.icons"}

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QTimer, Slot
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy
 
 from imugui.views import theme
-from imugui.views.controls import Button
+from imugui.views.controls import Button, clear
 
 TONES = {"info": "neutral", "warn": "warn", "error": "bad"}
 INFO_STAYS_MS = 8000
+OFFER_STAYS_MS = 30000  # with something to choose
+
+Offer = tuple[str, str, Callable[[], object]]  # text of a button, its tooltip, what it does
 
 
 class Banner(QFrame):
@@ -22,7 +27,6 @@ class Banner(QFrame):
         self._covered = 0
         self._leave = QTimer(self)
         self._leave.setSingleShot(True)
-        self._leave.setInterval(INFO_STAYS_MS)
         self._leave.timeout.connect(self.dismiss)
         self._words = QLabel()
         self._words.setWordWrap(True)
@@ -35,6 +39,8 @@ class Banner(QFrame):
         row.setSpacing(12)
         row.addWidget(self._words, 1)
         row.addWidget(self._count)
+        self.offers = QHBoxLayout()
+        row.addLayout(self.offers)
         button = Button("Dismiss", "Take this message away", "dismiss_message", role="quiet", small=True)
         button.clicked.connect(self.dismiss)
         row.addWidget(button)
@@ -57,11 +63,23 @@ class Banner(QFrame):
         self._words.setText(text)
         self._words.setAccessibleName(f"{tone}: {text}")
         self._count.setText(f"+ {self._covered} before" if self._covered else "")
+        clear(self.offers)
         self._leave.stop()
         if tone == "info":
-            self._leave.start()
+            self._leave.start(INFO_STAYS_MS)
         self.show()
         self.update()
+
+    def offer(self, offers: list[Offer]) -> None:
+        """Add buttons to the message on show; each takes the message away when it is used."""
+        clear(self.offers)
+        for text, words, act in offers:
+            button = Button(text, words, small=True)
+            button.clicked.connect(act)
+            button.clicked.connect(self.dismiss)
+            self.offers.addWidget(button)
+        if self._leave.isActive():
+            self._leave.start(OFFER_STAYS_MS)
 
     @Slot()
     def dismiss(self) -> None:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QFileDialog, QFrame, QHBoxLayout, QVBoxLayout
 
 from imugui.formats import FORMATS
-from imugui.views.boards import first_lines, identity, keep_options, kept_options
-from imugui.views.column_names import bare_lines
+from imugui.views.boards import bare_lines, identity, keep_options, kept_options
 from imugui.views.controls import Button, StillBox
+from imugui.views.file_columns import FileColumns
 from imugui.views.fusion_tools import FusionTools
+from imugui.views.record_tools import RecordLine
 from imugui.views.settings_store import SettingsStore
 from imugui.views.source_box import SourceBox
 from imugui.views.verdict_row import VerdictRow
@@ -27,6 +29,7 @@ class ConnectionBar(QFrame):
     """Choosing and connecting; while connected, another choice takes effect at once."""
 
     columns_wanted = Signal()
+    assumed = Signal(str, str)  # tone and sentence: what is assumed of the columns of the file that is opened
 
     def __init__(self, session: Session, settings_store: SettingsStore) -> None:
         super().__init__()
@@ -34,12 +37,15 @@ class ConnectionBar(QFrame):
         self.setAccessibleName("Connection")
         self._session = session
         self._settings_store = settings_store
+        self.files = FileColumns(settings_store)
+        self._asking = False  # a person is asked for the columns before the file is opened
         self.source = SourceBox()
         self.format = _format_box()
         self.baud = _baud_box()
         self.button = Button("Connect", "Start or stop the connection", "toggle_connection", "connect", role="primary")
         self.verdict = VerdictRow()
         self.tools = FusionTools(session, settings_store)
+        self.recording = RecordLine(session)
         self._restore()
         self._lay_out()
         self.source.picked.connect(self._changed)
@@ -58,8 +64,10 @@ class ConnectionBar(QFrame):
         self.button.set_icon("disconnect" if connected else "open" if asks else "connect")
         self.button.set_role("" if connected else "primary")
         self.baud.setVisible(choice.transport == "serial")
-        self.verdict.refresh(status)
+        source = self._session.source
+        self.verdict.refresh(status, plays_table=source is not None and source.transport == "replay")
         self.tools.refresh(status)
+        self.recording.refresh()
 
     @Slot(list)
     def show_ports(self, ports: list[Port]) -> None:
@@ -79,11 +87,31 @@ class ConnectionBar(QFrame):
         """Connect what is chosen; for a file that is not chosen yet, ask for it."""
         self.source.finish_typing()
         choice = self.source.choice()
-        if choice.address:
+        if choice.transport == "replay" and choice.address and self.format.currentData() == AUTO:
+            self._open_file(choice.address)
+        elif choice.address:
             self._remember()
             self._session.connect_to(self.chosen_source())
         elif choice.transport == "replay":
             self.open_recording()
+
+    def _open_file(self, path: str) -> None:
+        """Open a file as its columns are known or guessed; where they are unsure, ask first."""
+        opening = self.files.opening(path, self.options())
+        self._asking = opening.asks
+        if opening.asks:
+            self._session.disconnect_source()  # else this bar would go back to what is still connected
+            self.columns_wanted.emit()
+            return
+        self._remember()
+        self._session.connect_to(replace(self.chosen_source(), options=opening.options))
+        if opening.words:
+            self.assumed.emit(opening.tone, f"{Path(path).name}: {opening.words}.")
+
+    def open_files(self, paths: list[str]) -> None:
+        """Open files that were picked together as one; the first stands for all."""
+        self.files.pick(paths)
+        self.connect_to("replay", paths[0])
 
     @Slot(str, str)
     def connect_to(self, transport: str, address: str) -> None:
@@ -98,9 +126,9 @@ class ConnectionBar(QFrame):
     def open_recording(self) -> None:
         """Ask for a file and play it."""
         folder = str(Path(self._settings_store.settings.address).parent)
-        path, _ = QFileDialog.getOpenFileName(self, "Open a recording", folder, FILE_KINDS)
-        if path:
-            self.connect_to("replay", path)
+        paths, _ = QFileDialog.getOpenFileNames(self, "Open a recording", folder, FILE_KINDS)
+        if paths:
+            self.open_files(paths)
 
     def chosen_source(self) -> Source:
         """The source as it is chosen here, with what is remembered of the board."""
@@ -115,15 +143,14 @@ class ConnectionBar(QFrame):
     def keep_options(self, options: Options) -> None:
         """Remember what the user says of the chosen board, and listen again with it."""
         keep_options(self._settings_store, self._identity(), options)
-        self.format.choose("csv-line" if options.columns else self.format.currentData())
-        if self._session.source is not None:
+        self.files.keep(self.source.choice().address, options)
+        self.format.choose("csv-line" if options.columns else AUTO if options.tables else self.format.currentData())
+        if self._session.source is not None or self._asking:
             self.connect_chosen()
 
     def lines(self) -> list[str]:
-        """The lines of numbers that were seen of the chosen source, for naming its columns."""
-        choice = self.source.choice()
-        seen = [text for _, _, text in self._session.link_log()]
-        return bare_lines(first_lines(Path(choice.address)) if choice.transport == "replay" else seen)
+        """The lines of numbers that came from the chosen board, for naming its columns."""
+        return bare_lines([text for _, _, text in self._session.link_log()])
 
     def _identity(self) -> str:
         return identity(self.source.choice(), self.source.ports())
@@ -179,7 +206,11 @@ class ConnectionBar(QFrame):
         column.setContentsMargins(16, 10, 12, 10)
         column.setSpacing(8)
         column.addLayout(first)
-        column.addWidget(self.verdict)
+        second = QHBoxLayout()
+        second.setSpacing(12)
+        second.addWidget(self.verdict, 1)
+        second.addWidget(self.recording)
+        column.addLayout(second)
 
 
 def _format_box() -> StillBox:
@@ -187,7 +218,7 @@ def _format_box() -> StillBox:
     box.add("Auto format", AUTO)
     for name, format_ in FORMATS.items():
         box.add(format_.title, name, short=name, words=format_.hint)
-    box.setMinimumContentsLength(7)
+    box.setMinimumContentsLength(6)
     box.setSizeAdjustPolicy(StillBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     return box
 
@@ -197,6 +228,6 @@ def _baud_box() -> StillBox:
     box.add("Auto baud", 0)
     for baud in sorted({*BAUDS, *(baud for format_ in FORMATS.values() for baud in format_.bauds)}):
         box.add(f"{baud} baud", baud)
-    box.setMinimumContentsLength(7)
+    box.setMinimumContentsLength(6)
     box.setSizeAdjustPolicy(StillBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     return box

@@ -48,7 +48,7 @@ class Button(QPushButton):
             self._paint_icon()
 
     def set_role(self, role: str) -> None:
-        """Take another look: "primary", "quiet" or ""."""
+        """Take another look: "primary", "quiet", "recording" or ""."""
         if role != self.property("role"):
             self.setProperty("role", role)
             self.style().polish(self)
@@ -62,9 +62,8 @@ class Button(QPushButton):
     def _paint_icon(self) -> None:
         if self._icon:
             colours = theme.palette()
-            self.setIcon(
-                theme.icon(self._icon, colours.on_accent if self.property("role") == "primary" else colours.text)
-            )
+            special = {"primary": colours.on_accent, "recording": colours.bad}
+            self.setIcon(theme.icon(self._icon, special.get(self.property("role"), colours.text)))
 
 
 class StillBox(QComboBox):

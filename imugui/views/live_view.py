@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import time
+from typing import Any
 
 from PySide6.QtCore import Qt, QTimer, Slot
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QStackedLayout, QVBoxLayout, QWidget
 
 from imugui.fusion.attitude import heading_deg
-from imugui.fusion.quaternion import from_matrix
+from imugui.fusion.quaternion import conjugate, from_matrix, multiply
 from imugui.samples import Rows
 from imugui.views.attitude_panel import AttitudePanel
 from imugui.views.controls import Button
@@ -59,6 +60,7 @@ class LiveView(View):
         self._display = (kept.convention, kept.decimals)
         self._state = State.IDLE
         self._origin_t = math.nan
+        self._ghost: Any | None = None
         self._lay_out()
         self.scene.hand_turned.connect(self.turn_board)
         self.empty.wanted.connect(self.wanted)
@@ -67,8 +69,7 @@ class LiveView(View):
 
     def refresh(self) -> None:
         rows = self.session.attitude.last(1)
-        age_s = time.perf_counter() - float(rows["t_arrival"][0]) if len(rows) else math.nan
-        word = stale_word(self._state, age_s)
+        word = self._stale_word(rows)
         self.scene.set_dimmed(word or None)
         if word:
             self.angles.blank()
@@ -80,7 +81,7 @@ class LiveView(View):
         status = self.session.status()
         self._state = status.state
         rows = self.session.attitude.last(1)
-        alive = len(rows) > 0 and not stale_word(status.state, time.perf_counter() - float(rows["t_arrival"][0]))
+        alive = len(rows) > 0 and not self._stale_word(rows)
         if alive:
             self.heading.show_flags(status, bool(rows["rest"][0]))
         self._stack.setCurrentIndex(0 if status.state is State.IDLE and not alive else 1)
@@ -94,6 +95,11 @@ class LiveView(View):
 
     def origin_moved(self) -> None:
         self._origin_t = time.perf_counter()
+
+    def show_ghost(self, quat: Any | None) -> None:
+        self._ghost = quat
+        if quat is None:
+            self.scene.set_ghost(None)
 
     @Slot(float, float)
     def turn_board(self, dx_rad: float, dy_rad: float) -> None:
@@ -116,9 +122,19 @@ class LiveView(View):
         """Look from the usual place."""
         self.scene.view_from("default")
 
+    def _stale_word(self, rows: Rows) -> str:
+        """Why the picture is not live, in words; a paused replay shows where it stands."""
+        player = self.session.player
+        if player is not None and len(rows) and not player.playing and not player.ended:
+            return ""
+        age_s = time.perf_counter() - float(rows["t_arrival"][0]) if len(rows) else math.nan
+        return stale_word(self._state, age_s)
+
     def _show(self, rows: Rows) -> None:
         local = rows["local"][0]
         self.scene.set_quat(local)
+        if self._ghost is not None:  # relative to the same origin
+            self.scene.set_ghost(multiply(multiply(local, conjugate(rows["quat"][0])), self._ghost))
         self.scene.set_north(not self.session.has_origin)
         self.angles.show_attitude(local, self.session.has_origin)
         self.heading.show_heading(float(heading_deg(rows["quat"][0])))

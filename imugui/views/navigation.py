@@ -56,6 +56,7 @@ class Navigation(QFrame):
         button.setFixedSize(WIDTH - 16, 62)
         button.setFont(theme.font("small"))
         button.setCheckable(True)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # after a click the keys stay with the page and the replay
         button.setToolTip(f"{page.tip} ({number})")
         button.setAccessibleName(f"Page {page.title}")
         button.clicked.connect(lambda: self.chosen.emit(name))

@@ -1,7 +1,8 @@
 """The style sheet over Qt's Fusion, with names for colours: theme.py fills them in.
 
 Widgets pick a part by the dynamic property ``role``:
-QPushButton "primary" or "quiet"; QToolButton "rail"; QLabel "muted" or "heading"; QFrame "card", "bar" or "rail".
+QPushButton "primary", "quiet" or "recording"; QToolButton "rail"; QLabel "muted" or "heading";
+QFrame "card", "bar" or "rail".
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ QPushButton[role="primary"] { color: $on_accent; background: $accent; border-col
 QPushButton[role="primary"]:hover { border-color: $text; }
 QPushButton[role="primary"]:focus { border: 2px solid $text; padding: 4px 11px; }
 QPushButton[role="primary"]:disabled { color: $muted; background: $raised; border-color: $line; }
+QPushButton[role="recording"] { color: $bad; border-color: $bad; }
 QPushButton[role="quiet"], QToolButton[role="quiet"], QToolButton[role="rail"] {
     background: transparent; border-color: transparent;
 }
@@ -67,6 +69,13 @@ QCheckBox::indicator { width: 16px; height: 16px; border: 1px solid $muted; bord
 QCheckBox::indicator:checked { image: url("$icons/tick.svg"); }
 QCheckBox::indicator:disabled { border-color: $line; }
 QCheckBox::indicator:focus { border: 2px solid $accent; }
+
+QTabBar::tab {
+    color: $muted; background: transparent; border: none; border-bottom: 2px solid transparent; padding: 5px 12px;
+}
+QTabBar::tab:hover { color: $text; }
+QTabBar::tab:selected { color: $text; border-bottom-color: $accent; }
+QTabBar::tab:focus { border-bottom-color: $text; }
 
 QMenu { background: $panel; border: 1px solid $line; padding: 4px; }
 QMenu::item { padding: 5px 20px; border-radius: 4px; }

@@ -48,8 +48,8 @@ class VerdictRow(QWidget):
         """The sentence on show, uncut."""
         return self._line.whole
 
-    def refresh(self, status: Status) -> None:
-        """Show a snapshot."""
+    def refresh(self, status: Status, plays_table: bool = False) -> None:
+        """Show a snapshot; ``plays_table``: the columns of the file that is played can be looked at."""
         state = status.state
         trouble = state.tone in ("warn", "bad")
         self.chip.show_state(state.tone, state.word)
@@ -59,7 +59,8 @@ class VerdictRow(QWidget):
         self._line.setVisible(not trouble)
         self._whole.setVisible(trouble)
         self.log_button.setVisible(trouble)
-        self.columns_button.setVisible(state in NEEDS_COLUMNS or (trouble and _is_about_columns(status)))
+        named = plays_table and status.format == CSV
+        self.columns_button.setVisible(state in NEEDS_COLUMNS or named or (trouble and _is_about_columns(status)))
 
 
 def _is_about_columns(status: Status) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
@@ -19,6 +21,8 @@ class View(QWidget):
 
     wanted = Signal(str, str)  # transport, address: the user asks this page for a source; an empty address: any file
 
+    said = Signal(str, str)  # tone "info", "warn" or "error", and a sentence for the banner
+
     def __init__(self, session: Session, settings_store: SettingsStore) -> None:
         super().__init__()
         self.session = session
@@ -33,6 +37,12 @@ class View(QWidget):
 
     def show_ports(self, ports: list[Port]) -> None:
         """The serial ports of this computer have changed."""
+
+    def show_ghost(self, quat: Any | None) -> None:
+        """Another attitude (w, x, y, z) to be seen beside the present one, or None."""
+
+    def stop(self) -> None:
+        """The window closes: end what runs beside."""
 
     def origin_moved(self) -> None:
         """The user has just set the origin."""

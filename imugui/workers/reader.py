@@ -68,6 +68,7 @@ class Reader(Worker):
             where=self.source.address,
             problem=link.problem.sentence if link.problem else "",
             progress=getattr(self._transport, "progress", 0.0),
+            paused=getattr(self._transport, "paused", False),
             problem_kind=link.problem.kind if link.problem else "",
             opened=link.opened,
             byte_t=link.byte_t,

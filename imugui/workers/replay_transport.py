@@ -68,6 +68,11 @@ class ReplayTransport:
         return rows if len(rows) else b""
 
     @property
+    def paused(self) -> bool:
+        """Whether the user lets it stand still."""
+        return self.player is not None and not self.player.playing and not self.player.ended
+
+    @property
     def ended(self) -> bool:
         """Whether everything was played; seeking back or playing again changes that."""
         return self.player is None or self.player.ended

@@ -88,6 +88,7 @@ class Session(QObject):
         self._transport: Any = None
         self._record = RecordControl(self.samples, self.attitude, self._fusion)
         self._origin: tuple[float, ...] | None = None
+        self._zeroed: bool | None = None  # what the user did last about the origin; None: a recording may have one
         self._meter = Meter()
         self._first_row = 0
         self._last_state = State.IDLE
@@ -102,7 +103,7 @@ class Session(QObject):
         self._meter = Meter()
         self.reset_ages()
         self._fusion.missed_rows = 0
-        self._origin = None
+        self._origin, self._zeroed = None, None
         self._known = BoardProfile(self.profiles, source)
         for warning in self._known.load():
             self.message.emit("warn", warning)
@@ -195,7 +196,7 @@ class Session(QObject):
 
     @property
     def has_origin(self) -> bool:
-        return self._origin is not None or self._fusion.has_origin
+        return self._fusion.has_origin if self._zeroed is None else self._zeroed
 
     def set_origin(self) -> bool:
         """Make the newest attitude the origin; False when there is none."""
@@ -203,12 +204,13 @@ class Session(QObject):
         if len(newest) == 0 or self.status().state is not State.STREAMING:
             return False
         self._origin = tuple(float(value) for value in newest["quat"][0])
+        self._zeroed = True
         self._fusion.set_origin(self._origin)
         return True
 
     def clear_origin(self) -> None:
         """Show attitudes in the earth's axes again."""
-        self._origin = None
+        self._origin, self._zeroed = None, False
         self._fusion.set_origin(None)
 
     @property

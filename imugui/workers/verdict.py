@@ -31,6 +31,7 @@ class State(enum.Enum):
     NO_MESSAGES = ("No message found", "bad")
     IMPOSSIBLE = ("Impossible values", "bad")
     STREAMING = ("Streaming", "good")
+    PAUSED = ("Paused", "neutral")
     STALLED = ("Stalled", "warn")
     MISSING = ("No port", "bad")
     BUSY = ("Port busy", "bad")
@@ -64,6 +65,7 @@ class Facts:
     where: str = ""
     problem: str = ""
     progress: float = 0.0  # share of a file that was read
+    paused: bool = False  # a replay that stands still because the user wants it
     problem_kind: str = ""  # a key of port_errors.SENTENCES
     opened: float = math.nan
     byte_t: float = math.nan  # newest byte
@@ -136,6 +138,8 @@ def _no_bytes(facts: Facts, waited: float) -> Verdict:
 
 
 def _after_samples(facts: Facts) -> Verdict:
+    if facts.paused:
+        return Verdict(State.PAUSED, f"{facts.where} stands still. Space plays it on.")
     quiet = facts.now - facts.sample_t
     patience = max(STALLED_S, SLOW_PERIODS * facts.period_s if facts.period_s == facts.period_s else 0.0)
     if quiet > patience:

@@ -17,7 +17,7 @@ from imugui.views.settings_store import SettingsStore
 from imugui.workers.session import Options, Port, Session, Source, State, Status
 
 PORT = Port("/dev/ttyUSB0", "USB Serial", "CH340")
-CAPTURE = b"ax,ay,az,gx,gy,gz\n" + b"0,0,9.81,0,0,0\n" * 50
+CAPTURE = b"t,ax,ay,az,gx,gy,gz\n" + b"".join(b"%.2f,0,0,9.81,0,0,0\n" % (k / 100) for k in range(50))
 
 
 @pytest.fixture
@@ -164,7 +164,7 @@ def test_a_recording_is_asked_for_and_played(
 ) -> None:
     path = tmp_path / "run.csv"
     path.write_bytes(CAPTURE)
-    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([str(path)], ""))
     bar.source.choose_source("replay", "")
     bar.refresh(session.status())
     assert button_text(bar) == "Open…"
@@ -178,7 +178,7 @@ def test_a_recording_is_asked_for_and_played(
 def test_asking_for_a_recording_can_be_cancelled(
     bar: ConnectionBar, session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: ("", ""))
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([], ""))
     bar.open_recording()
     assert session.source is None
 

@@ -12,7 +12,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from pytestqt.qtbot import QtBot
 
 from imugui.views import VIEWS, theme
-from imugui.views.column_dialog import ColumnDialog
+from imugui.views.column_map_dialog import ColumnMapDialog
 from imugui.views.main_window import MainWindow
 from imugui.views.settings_store import SettingsStore
 from imugui.views.shortcuts import KEYS, tip
@@ -60,7 +60,7 @@ def test_only_the_page_in_front_is_refreshed(window: MainWindow, monkeypatch: py
         monkeypatch.setattr(page, "refresh", count)
     window.show_page("settings")
     window.refresh()
-    assert counts == {"live": 0, "settings": 2}
+    assert counts == dict.fromkeys(VIEWS, 0) | {"settings": 2}
 
 
 def test_the_timers_run_only_while_the_window_is_seen(window: MainWindow) -> None:
@@ -167,19 +167,19 @@ def test_a_dropped_file_is_played(window: MainWindow, qtbot: QtBot, tmp_path: Pa
     qtbot.waitUntil(streaming(window))
 
 
-def test_naming_columns_listens_again_with_them(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+def test_bare_numbers_are_asked_about_and_then_played(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     path = tmp_path / "bare.txt"
     path.write_bytes(b"".join(b"%d,0,0,1.0,0,0,0\n" % (i * 10) for i in range(500)))
     window.bar.connect_to("replay", str(path))
-    qtbot.waitUntil(lambda: window.session.status().state is State.FAILED)
-    window.slow_refresh()
-    qtbot.mouseClick(window.bar.verdict.columns_button, Qt.MouseButton.LeftButton)
-    dialog = window.findChild(ColumnDialog)
-    assert len(dialog.meanings) == 7
-    dialog.units["t"].choose("ms")
+    dialog = window.findChild(ColumnMapDialog)
+    assert window.session.source is None
+    assert len(dialog.tables[0].cards) == 7
+    dialog.tables[0].cards[0].unit.choose_unit("ms")
     dialog.accept()
     qtbot.waitUntil(streaming(window))
     assert window.session.status().rate_hz == pytest.approx(100.0, rel=0.01)
+    window.slow_refresh()
+    assert window.bar.verdict.columns_button.isVisible()
 
 
 def test_colours_change_at_once(window: MainWindow, settings_store: SettingsStore) -> None:

@@ -36,6 +36,7 @@ OPEN = {"phase": "open", "where": "/dev/ttyUSB0", "opened": 100.0}
         (Facts(107.0, **OPEN, byte_t=107.0, sample_t=106.99), State.STREAMING, ""),
         (Facts(107.0, **OPEN, byte_t=107.0, sample_t=106.99, odd="zero"), State.IMPOSSIBLE, "zero"),
         (Facts(110.0, **OPEN, byte_t=107.0, sample_t=107.0), State.STALLED, "nothing for 3 s"),
+        (Facts(110.0, **OPEN, byte_t=107.0, sample_t=107.0, paused=True), State.PAUSED, "Space"),
         (Facts(110.0, **OPEN, byte_t=109.9, sample_t=107.0), State.STALLED, "no message for 3 s"),
         (Facts(108.5, **OPEN, byte_t=107.0, sample_t=107.0, period_s=1.0), State.STREAMING, ""),
         (Facts(107.0, **OPEN, byte_t=107.0, sample_t=107.0, breaks=1, missing_s=2.5), State.STREAMING, "2.5 s"),
