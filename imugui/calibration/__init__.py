@@ -1,0 +1,1 @@
+"""Calibration: what is wrong with a board's sensors, found by guided flows, kept in a profile."""
