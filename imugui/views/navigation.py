@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QButtonGroup, QFrame, QToolButton, QVBoxLayout
 from imugui.views import theme
 from imugui.views.view import View
 
-WIDTH = 84
+WIDTH = 90
 
 
 class Navigation(QFrame):
@@ -53,7 +53,7 @@ class Navigation(QFrame):
         button.setText(page.title)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         button.setIconSize(QSize(26, 26))
-        button.setFixedSize(WIDTH - 16, 62)
+        button.setFixedSize(WIDTH - 12, 62)
         button.setFont(theme.font("small"))
         button.setCheckable(True)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # after a click the keys stay with the page and the replay
