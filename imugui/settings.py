@@ -30,6 +30,16 @@ class Settings:
         tip="Axes of the earth for the angles on screen. Inside, and in files, imugui always uses ENU",
     )
     decimals: int = field(1, "Decimals of angles", low=0, high=2, tip="A cheap board cannot support more than one")
+    field_ut: float = field(
+        0.0,
+        "Earth's field here",
+        unit="µT",
+        low=0.0,
+        high=70.0,
+        step=0.5,
+        tip="Strength at your place, from a map or model (22 to 67 µT); 0: not known. A magnetometer calibration that "
+        "finds another strength is refused",
+    )
     transport: str = field("simulator", "Last kind of source")
     address: str = field("aiming", "Last source")
     format: str = field("auto", "Last format")

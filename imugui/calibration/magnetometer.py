@@ -95,6 +95,11 @@ class MagnetometerFlow:
         self._alignment: FineResult | None = None
         self._temps = np.zeros(2)  # sum of the temperatures, and how many there were
 
+    def expect(self, field_ut: float) -> None:
+        """The field's strength at the place, uT, as the user or a model gives it; before anything is fed."""
+        self.field_ut = field_ut
+        self.buffer = CellBuffer(field_ut)
+
     def feed(self, rows: Rows) -> None:
         """Take raw SAMPLE rows, shape (n,)."""
         rows = rows[np.isfinite(rows["t"])]

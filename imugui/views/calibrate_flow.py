@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QScrollArea, QVBoxLayout, QWidget
 
+from imugui.calibration.magnetometer import MagnetometerFlow
 from imugui.views.calibrate_feed import Feed
 from imugui.views.calibrate_look import Guide, Look, Verdict
 from imugui.views.calibrate_picture import CalibratePicture
@@ -55,8 +56,8 @@ class FlowPage(QWidget):
 
     # the run
 
-    def begin(self, guide: Guide, profile: Any) -> None:
-        """Start a flow afresh; ``profile`` is the one in use, or None."""
+    def begin(self, guide: Guide, profile: Any, field_ut: float = 0.0) -> None:
+        """Start a flow afresh; ``profile`` is the one in use, or None; ``field_ut``: the field here, 0 if not known."""
         self.end()
         self.guide, self._profile, self._result = guide, profile, None
         self._advice = advice(guide.first, profile)
@@ -65,7 +66,10 @@ class FlowPage(QWidget):
         self._new_plot(guide)
         for widget in (self.card, self.apply, self.enough):
             widget.hide()
-        self._runner = FlowRunner(guide.start(profile), guide.look, guide.pace_s, guide.ends)
+        flow = guide.start(profile)
+        if isinstance(flow, MagnetometerFlow) and field_ut > 0.0:
+            flow.expect(field_ut)
+        self._runner = FlowRunner(flow, guide.look, guide.pace_s, guide.ends)
         self._runner.stepped.connect(self._take)
         self._runner.failed.connect(self.failed)
         self._feed = Feed(self.session)

@@ -94,7 +94,7 @@ class CalibrateView(View):
     def begin(self, key: str) -> None:
         """Begin a guided flow, by its key in GUIDES."""
         self._stack.setCurrentWidget(self.flow)
-        self.flow.begin(GUIDES[key], self.session.profile)
+        self.flow.begin(GUIDES[key], self.session.profile, self.settings_store.settings.field_ut)
 
     @Slot()
     def go_home(self) -> None:

@@ -23,7 +23,7 @@ from imugui.views.view import View
 from imugui.workers.session import Session
 
 WIDTH = 680
-ON_PAGE = ("theme", "convention", "decimals")
+ON_PAGE = ("theme", "convention", "decimals", "field_ut")
 """The settings that are edited here; the others follow what the user does elsewhere."""
 
 
