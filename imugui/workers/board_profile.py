@@ -41,6 +41,7 @@ class BoardProfile:
         self.profile: Profile | None = None
         self.alarm: FieldAlarm | None = None
         self._tried = -math.inf
+        self.biased = False  # the board lay still after connecting and gave its gyroscope bias by itself
         self._bias_known = source.transport == "replay"
 
     def load(self) -> list[str]:
@@ -78,12 +79,18 @@ class BoardProfile:
         found = auto_bias(rows)
         if not found.accepted:
             return None
-        self._bias_known = True
+        self._bias_known = self.biased = True
         return replace(self.correction(found.temp_c), gyr_bias=found.bias)
 
     def watch(self, rows: Rows) -> str:
         """The alarm's light after new ATTITUDE rows, shape (n,): "off", "green", "yellow" or "red"."""
         return self.alarm.feed(rows[-ALARM_ROWS:]) if self.alarm and len(rows) else self.light
+
+    @property
+    def words(self) -> str:
+        """What is in use, for the status line; "" when nothing is."""
+        parts = [self.profile.board.title] if self.profile else []
+        return " + ".join(parts + ["bias at rest"] * self.biased)
 
     @property
     def light(self) -> str:
@@ -95,7 +102,7 @@ class BoardProfile:
         return self.profile is not None and self.profile.magnetometer is not None
 
     def _use(self, profile: Profile | None) -> None:
-        self.profile, self.alarm = profile, None
+        self.profile, self.alarm, self.biased = profile, None, False
         part = profile.magnetometer if profile else None
         if part is not None and part.field_ut > 0.0:
             self.alarm = FieldAlarm(part.field_ut, part.dip_deg if np.isfinite(part.dip_deg) else None)

@@ -276,7 +276,6 @@ class Session(QObject):
             found = self._known.start_up_bias(raw, connected)
             if found is not None:
                 self._use(found, carry_on=True)
-                self.message.emit("info", "The board lay still: its gyroscope bias was taken by itself.")
 
     # recording
 
@@ -350,7 +349,7 @@ class Session(QObject):
             has_mag=trust != "none",
             mag_trust=trust,
             mag_alarm=self._light,
-            profile=self.profile.board.title if self.profile else "",
+            profile=self._known.words if self._known else "",
             mag_norm_ut=norm,
             temp_c=float(newest["temp_c"][0]) if len(newest) else math.nan,
             filter=self.filter_name,
