@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import sys
 
-from imugui import app, cli
+from imugui import cli
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run the program; returns its exit status."""
     arguments = cli.parser().parse_args(sys.argv[1:] if argv is None else argv)
     try:
-        return arguments.run(arguments) if arguments.command else app.run_window(arguments)
+        if arguments.command:
+            return int(arguments.run(arguments))
+        from imugui import app  # imported when used: the other commands need no window and start sooner
+
+        return app.run_window(arguments)
     except KeyboardInterrupt:
         return 130
 
