@@ -266,24 +266,3 @@ class DeviceClock:
         else:
             self.jitter_s += 0.02 * (abs(dt - self.period) - self.jitter_s)
             self.period += 0.02 * (dt - self.period)
-
-
-class Meter:
-    """Samples a second over the last seconds, from arrivals; 0 when nothing comes any more."""
-
-    def __init__(self, window_s: float = 2.0) -> None:
-        self._window_s = window_s
-        self._marks: list[tuple[float, int]] = []
-
-    def add(self, t: float, total: int) -> None:
-        """Note that ``total`` samples had come by host time t (s)."""
-        self._marks.append((t, total))
-        while len(self._marks) > 2 and t - self._marks[1][0] > self._window_s:
-            self._marks.pop(0)
-
-    def rate_hz(self, now: float) -> float:
-        """Mean rate (Hz) over the window that ends at host time now (s)."""
-        if len(self._marks) < 2 or now - self._marks[-1][0] > self._window_s:
-            return 0.0
-        (first_t, first), (last_t, last) = self._marks[0], self._marks[-1]
-        return (last - first) / (last_t - first_t) if last_t > first_t else 0.0

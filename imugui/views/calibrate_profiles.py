@@ -27,7 +27,7 @@ from imugui.views.labels import ElidedLabel, ToneLabel, heading, muted
 from imugui.workers.session import Session
 
 WIDTH = 336
-NONE = "None: raw values are used as they come."
+NONE = "None is kept for this board; only a bias that it gave at rest is taken out."
 FILTER = "Profiles (*.json)"
 ACTIONS: dict[str, tuple[str, str]] = {
     "certificate": ("Certificate", "What was calibrated, when, and how far to trust it"),

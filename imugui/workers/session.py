@@ -19,7 +19,6 @@ from imugui.formats import Options
 from imugui.fusion import DEFAULT_FILTER, FILTERS
 from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
-from imugui.fusion.timing import Meter
 from imugui.ring import Ring
 from imugui.samples import ATTITUDE, SAMPLE
 from imugui.simulation.motions import MOTIONS
@@ -89,7 +88,6 @@ class Session(QObject):
         self._record = RecordControl(self.samples, self.attitude, self._fusion)
         self._origin: tuple[float, ...] | None = None
         self._zeroed: bool | None = None  # what the user did last about the origin; None: a recording may have one
-        self._meter = Meter()
         self._first_row = 0
         self._last_state = State.IDLE
 
@@ -100,7 +98,6 @@ class Session(QObject):
         self.disconnect_source()
         self._transport = TRANSPORTS[source.transport](source)
         self._first_row = self.samples.count
-        self._meter = Meter()
         self.reset_ages()
         self._fusion.missed_rows = 0
         self._origin, self._zeroed = None, None
@@ -322,12 +319,11 @@ class Session(QObject):
         verdict = self._verdict(now)
         self._note(verdict.state)
         self._look_after(now)
-        reader = self._reader
-        if reader is None:
+        reader, known = self._reader, self._known
+        if reader is None or known is None:
             return Status(verdict.state, verdict.sentence, filter=self.filter_name)
         fused = self.attitude.last(min(LOOK_ROWS, self.attitude.count))
-        trust, norm = mag_trust(fused, self.use_mag, self._known is not None and self._known.has_mag, self._light)
-        self._meter.add(now, self.samples.count)
+        trust, norm = mag_trust(fused, self.use_mag, known.has_mag, known.light)
         counts, clock = reader.intake.counts, reader.intake.clock
         newest = self.samples.last(1)
         return Status(
@@ -337,7 +333,7 @@ class Session(QObject):
             format=reader.intake.format,
             seen=reader.intake.seen,
             baud=reader.intake.baud,
-            rate_hz=self._rate(now, verdict.state),
+            rate_hz=self.rate_hz if verdict.state in (State.STREAMING, State.IMPOSSIBLE) else 0.0,
             jitter_ms=clock.jitter_s * 1e3,
             messages=counts.messages,
             bad_messages=counts.bad_messages,
@@ -348,8 +344,8 @@ class Session(QObject):
             age_ms=(now - float(newest["t_arrival"][0])) * 1e3 if len(newest) else math.nan,
             has_mag=trust != "none",
             mag_trust=trust,
-            mag_alarm=self._light,
-            profile=self._known.words if self._known else "",
+            mag_alarm=known.light,
+            profile=known.words,
             mag_norm_ut=norm,
             temp_c=float(newest["temp_c"][0]) if len(newest) else math.nan,
             filter=self.filter_name,
@@ -360,16 +356,6 @@ class Session(QObject):
         """Samples a second as fitted over the connection (0.1 % after 10 s), in the board's own time; 0 if unknown."""
         period = self._reader.intake.clock.period if self._reader else math.nan
         return 1.0 / period if period > 0.0 else 0.0
-
-    @property
-    def _light(self) -> str:
-        return self._known.light if self._known else "off"
-
-    def _rate(self, now: float, state: State) -> float:
-        """The fitted rate while samples come; 0 when they do not."""
-        if state not in (State.STREAMING, State.IMPOSSIBLE):
-            return 0.0
-        return self.rate_hz or self._meter.rate_hz(now)
 
     def _verdict(self, now: float) -> Verdict:
         reader = self._reader

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 
-from imugui.fusion.timing import ArrivalClock, DeviceClock, Meter
+from imugui.fusion.timing import ArrivalClock, DeviceClock
 from imugui.samples import SAMPLE, Rows, empty_rows
 
 Arrivals = Callable[[np.ndarray, np.random.Generator], np.ndarray]
@@ -123,11 +123,3 @@ def test_device_time_in_a_file_is_kept() -> None:
     rows["t_arrival"] = np.nan
     DeviceClock().stamp(rows)
     assert np.array_equal(rows["t"], np.arange(50) / 256.0 + 3.0)
-
-
-def test_meter_counts_the_last_seconds_only() -> None:
-    meter = Meter(window_s=2.0)
-    for k in range(40):
-        meter.add(k * 0.1, k * 10)
-    assert meter.rate_hz(3.9) == pytest.approx(100.0)
-    assert meter.rate_hz(7.0) == 0.0
