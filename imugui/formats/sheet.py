@@ -139,4 +139,5 @@ def _claim(kinds: list[str], kind: str, triples: Sequence[Numbers], unit_of: Cal
 
 def _is_steady(values: Numbers) -> bool:
     lengths = norms(values)
-    return bool(np.nanstd(lengths) < STEADY * median_norm(values))
+    known = lengths[np.isfinite(lengths)]
+    return bool(np.std(known) < STEADY * median_norm(values)) if len(known) else False

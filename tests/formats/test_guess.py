@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from imugui.formats.guess import Guess, belonging_files, guess, guess_files
@@ -289,6 +289,7 @@ def test_what_has_no_place_is_named() -> None:
 
 
 @given(st.lists(st.lists(st.floats(width=32), min_size=4, max_size=4), min_size=2, max_size=30), st.booleans())
+@example([[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, float("inf"), 0.0]], False)
 def test_no_numbers_raise(rows: list[list[float]], named: bool) -> None:
     text = "t,ax,ay,az\n" * named + "\n".join(",".join(f"{value:g}" for value in row) for row in rows) + "\n"
     try:
