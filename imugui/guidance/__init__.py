@@ -1,0 +1,1 @@
+"""Guidance: plans, registration, aiming error, trust, and the readings that are kept."""

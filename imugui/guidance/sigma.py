@@ -1,0 +1,86 @@
+"""The error to expect of a reading: one angle, about the tool's axis, that is stated before it is needed.
+
+    sigma^2 = COVER^2 (tilt^2 + registration^2 + axis^2 + (sin(theta) psi)^2)
+
+- tilt: what the accelerometer's calibration leaves, and what the filter says it does not know yet;
+- registration: the same tilt error again, when the axes were measured, and what its residual shows;
+- axis: how well the tool's axis is known in the box;
+- psi: the heading's error. It matters only as far as the tool leans from the vertical by theta: a turn by psi moves
+  the axis by psi sin(theta) (guidance-teleop.md B.4). Without a magnetometer
+  psi^2 = (drift age)^2 + (share turning)^2, with the age of the registration and the turning since (turning.py).
+
+All parts are rms angles of a direction on the sphere. The errors of a direction have two components; if both are
+normal and alike, 9 of 10 lie within sqrt(ln 10) times their rms. So sigma is the angle that 9 of 10 errors stay
+within by this model, not a standard deviation of one component: on screen it stands as "± sigma".
+"""
+
+from __future__ import annotations
+
+import math
+
+from imugui.guidance.facts import Facts
+
+COVER = math.sqrt(math.log(10.0))
+"""P(r < R) = 1 - exp(-R^2 / rms^2) for two alike normal components: 0.9 at this many rms."""
+
+REGISTRATION = {"axes": (1.0, 0.5), "mark": (math.sqrt(0.5), 1.0), "origin": (1.0, 1.0)}
+"""How much of the tilt error and of the residual each way of registering puts into a reading. Axes: two directions
+with the tilt error each, half the residual taken up by each. Mark: the vertical has no error, the mark's heading has
+one component of it, and the residual says how far the table may not be level. Origin: all of both."""
+
+
+def axis_sigma(facts: Facts) -> float:
+    """The angle in rad that 9 of 10 errors of the axis stay within; NaN when a part of it is not known."""
+    return COVER * math.hypot(fixed_part(facts), lean(facts) * heading_sigma(facts))
+
+
+def fixed_part(facts: Facts) -> float:
+    """Rms angle in rad of all that does not grow with time; NaN without a registration or a tilt error."""
+    if facts.registration is None:
+        return math.nan
+    tilt_share, residual_share = REGISTRATION[facts.registration.method]
+    tilt = math.hypot(facts.base_tilt, known(facts.sigma_tilt))
+    residual = math.radians(facts.registration.residual_deg)
+    return math.hypot(tilt, tilt_share * facts.base_tilt, residual_share * residual, facts.axis_error)
+
+
+def heading_sigma(facts: Facts) -> float:
+    """1 sigma of the heading against the registration's, rad; NaN when it is not known.
+
+    With the magnetometer: what the filter states, else what the calibration leaves, which does not age.
+    """
+    if facts.use_mag:
+        return facts.base_heading if math.isnan(facts.sigma_heading) else facts.sigma_heading
+    aged = math.hypot(facts.drift * heading_age(facts), facts.turn_share * facts.turning)
+    return math.hypot(aged, known(facts.sigma_heading))
+
+
+def heading_age(facts: Facts) -> float:
+    """Seconds since the registration; NaN without one."""
+    return facts.now - facts.registered_at if facts.registration is not None else math.nan
+
+
+def seconds_left(facts: Facts, limit: float) -> float:
+    """Seconds until sigma passes ``limit`` (rad) if the tool stays as it is; 0 when it has, NaN when not known."""
+    if facts.use_mag:
+        return math.inf if axis_sigma(facts) <= limit else 0.0
+    spare = (limit / COVER) ** 2 - fixed_part(facts) ** 2
+    turned = (lean(facts) * facts.turn_share * facts.turning) ** 2
+    rate = lean(facts) * facts.drift
+    if math.isnan(spare + turned + rate):
+        return math.nan
+    if spare <= turned:
+        return 0.0
+    if rate == 0.0:
+        return math.inf
+    return max(0.0, math.sqrt(spare - turned) / rate - heading_age(facts))
+
+
+def lean(facts: Facts) -> float:
+    """sin(theta): how much of a heading error the axis feels; 1 when the lean is not known."""
+    return 1.0 if math.isnan(facts.tilt_from_vertical) else math.sin(facts.tilt_from_vertical)
+
+
+def known(value: float) -> float:
+    """The value, or 0 for one that the filter does not state."""
+    return 0.0 if math.isnan(value) else value
