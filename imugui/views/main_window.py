@@ -320,6 +320,7 @@ class MainWindow(QMainWindow):
         for page in self.pages.values():
             page.wanted.connect(self.bar.connect_to)
             page.said.connect(self.show_message)
+            page.record_wanted.connect(self.toggle_recording)
             self.compare.ghost.connect(page.show_ghost)
 
     def _make_shortcuts(self) -> None:

@@ -23,6 +23,8 @@ class View(QWidget):
 
     said = Signal(str, str)  # tone "info", "warn" or "error", and a sentence for the banner
 
+    record_wanted = Signal()  # the user asks this page to begin or end a recording
+
     def __init__(self, session: Session, settings_store: SettingsStore) -> None:
         super().__init__()
         self.session = session
