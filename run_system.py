@@ -54,6 +54,7 @@ libxcb-util.so.1        library  x11      libxcb-util1         xcb-util         
 libxcb-xfixes.so.0      library  x11      libxcb-xfixes0       libxcb               libxcb
 libxcb-xkb.so.1         library  x11      libxcb-xkb1          libxcb               libxcb
 libxkbcommon-x11.so.0   library  x11      libxkbcommon-x11-0   libxkbcommon-x11     libxkbcommon-x11
+dbus-daemon             program  test     dbus-daemon          dbus-daemon          dbus
 libwayland-client.so.0  library  wayland  libwayland-client0   libwayland-client    wayland
 libwayland-cursor.so.0  library  wayland  libwayland-cursor0   libwayland-cursor    wayland
 """

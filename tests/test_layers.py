@@ -23,7 +23,7 @@ RANKS = {
     ),
     "workers": NO_QT_BELOW,
     "views": 4,
-    **dict.fromkeys(("app", "cli", "calibrate", "__main__"), 5),
+    **dict.fromkeys(("app", "cli", "calibrate", "study", "__main__"), 5),
 }
 QT = ("PySide6", "shiboken6", "pyqtgraph")
 # an outside package -> the ranks that may import it
@@ -31,6 +31,7 @@ OUTSIDE = {
     **dict.fromkeys(("PySide6", "shiboken6"), (3, 4, 5)),
     "pyqtgraph": (4, 5),
     **dict.fromkeys(("serial", "bleak"), (3,)),
+    **dict.fromkeys(("bumble", "dbus_fast"), (2,)),
     **dict.fromkeys(("pickle", "cPickle", "dill", "shelve", "marshal"), ()),
 }
 # a rank and a package -> the only part of it that this rank may import

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from imugui.formats import accel_lines, colon_line, csv_line, triplets
+from imugui.formats import accel_lines, colon_line, csv_line, motion_card, thingy_motion, triplets, wit_motion
 from imugui.formats.base import Counts, Decoder, Encoder, Format, LinkLog, Options
 from imugui.formats.families import FAMILIES, Family
 
-__all__ = ["FAMILIES", "FORMATS", "Counts", "Decoder", "Encoder", "Family", "Format", "LinkLog", "Options"]
+__all__ = [
+    "FAMILIES",
+    "FORMATS",
+    "STREAM_FORMATS",
+    "Counts",
+    "Decoder",
+    "Encoder",
+    "Family",
+    "Format",
+    "LinkLog",
+    "Options",
+]
 
 _ALL = (
     Format(
@@ -45,5 +56,37 @@ _ALL = (
         csv_line.CsvLineDecoder,
         csv_line.CsvLineEncoder,
     ),
+    Format(
+        "motion-card",
+        "Motion card, 15-byte notifications",
+        "The motion card itself over Bluetooth LE, without its scanner; the button is in the status.",
+        (),
+        motion_card.RATE_HZ,
+        motion_card.MotionCardDecoder,
+        motion_card.MotionCardEncoder,
+        motion_card.MESSAGE.size,
+    ),
+    Format(
+        "thingy-motion",
+        "Thingy:52, 18-byte raw motion notifications",
+        "A Nordic Thingy:52 over Bluetooth LE, with its magnetometer.",
+        (),
+        thingy_motion.RATE_HZ,
+        thingy_motion.ThingyMotionDecoder,
+        thingy_motion.ThingyMotionEncoder,
+        thingy_motion.MESSAGE.size,
+    ),
+    Format(
+        "wit-motion",
+        "WitMotion, 20-byte 55 61 notifications",
+        "A WitMotion board of the WT901BLE kind over Bluetooth LE.",
+        (),
+        wit_motion.RATE_HZ,
+        wit_motion.WitMotionDecoder,
+        wit_motion.WitMotionEncoder,
+        wit_motion.MESSAGE.size,
+    ),
 )
 FORMATS: dict[str, Format] = {entry.name: entry for entry in _ALL}
+STREAM_FORMATS: tuple[str, ...] = tuple(name for name, entry in FORMATS.items() if not entry.framed)
+"""Those whose messages find their own ends in a stream of bytes: what a serial port or a file can hold."""

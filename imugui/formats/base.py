@@ -101,7 +101,13 @@ class Format:
     name: str
     title: str
     hint: str  # which board speaks it, one sentence for the user
-    bauds: tuple[int, ...]
+    bauds: tuple[int, ...]  # none when it never comes over a serial port
     rate_hz: float  # nominal, for files that carry no time
     decoder: Callable[[Options], Decoder]
     encoder: Callable[[], Encoder]
+    message_bytes: int = 0  # length of the messages of a framed format; 0: messages find their own ends in a stream
+
+    @property
+    def framed(self) -> bool:
+        """Whether a message comes as one piece, as in Bluetooth LE: then a chunk is one message, and only that."""
+        return self.message_bytes > 0

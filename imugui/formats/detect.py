@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from imugui.formats import FORMATS
+from imugui.formats import STREAM_FORMATS
 from imugui.formats.base import Options
 from imugui.formats.detector import Detection, Detector, detect_file
 
@@ -41,7 +41,7 @@ class BaudSearch:
         t: float,
         options: Options | None = None,
         budget: float = BUDGET,
-        formats: Sequence[str] = tuple(FORMATS),
+        formats: Sequence[str] = STREAM_FORMATS,
     ) -> None:
         """``t`` and ``budget`` in s. ``formats``: only these are looked for."""
         self._bauds = tuple(bauds)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from imugui.formats import FORMATS
+from imugui.formats import FORMATS, STREAM_FORMATS
 from imugui.formats.base import Decoder, Options
 from imugui.formats.lines import readable
 from imugui.formats.values import how_many
@@ -48,9 +48,15 @@ class Detector:
     """Runs the decoder of every format on one stream until one of them fits; no byte is lost on the way."""
 
     def __init__(
-        self, options: Options | None = None, mid_stream: bool = False, formats: Sequence[str] = tuple(FORMATS)
+        self, options: Options | None = None, mid_stream: bool = False, formats: Sequence[str] = STREAM_FORMATS
     ) -> None:
-        """``mid_stream``: the first line may be cut (a port), as it is not in a file. ``formats``: only these."""
+        """``mid_stream``: the first line may be cut (a port), as it is not in a file.
+
+        ``formats``: only these. A framed one never takes part among others: a cut of the stream could look like
+        its message.
+        """
+        if len(formats) > 1:
+            formats = [name for name in formats if not FORMATS[name].framed]
         self._decoders = {name: FORMATS[name].decoder(options or Options()) for name in formats}
         self._rows: dict[str, list[Rows]] = {name: [] for name in formats}
         self._found = ""

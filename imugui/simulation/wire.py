@@ -13,7 +13,7 @@ from imugui.simulation.board import VirtualBoard
 from imugui.simulation.errors import PRESETS, Errors
 from imugui.simulation.path import Path
 
-MAG_RATES_HZ = {"accel-lines": 8.0, "triplets": 100.0}
+MAG_RATES_HZ = {"accel-lines": 8.0, "triplets": 100.0, "thingy-motion": 10.0}
 """How often the real boards behind the formats measure the field; the others as the errors say."""
 
 
@@ -37,7 +37,7 @@ class Wire:
 
     def __init__(self, board: VirtualBoard, form: Format, faults: Faults = NO_FAULTS, seed: int = 0) -> None:
         self.board, self.form, self.faults = board, form, faults
-        self.spoiled = 0  # lines cut or altered so far
+        self.spoiled = 0  # lines or messages cut or altered so far
         self._rng = np.random.default_rng(seed)
         self.restart()
 
@@ -47,14 +47,21 @@ class Wire:
         self._greeting = self._encoder.preamble()
 
     def take(self, n: int) -> bytes:
-        """The bytes of the next n samples."""
+        """The bytes of the next n samples; of a framed format only one after the other (see ``messages``)."""
+        return b"".join(self.messages(n))
+
+    def messages(self, n: int) -> list[bytes]:
+        """The next n samples as they leave the board: line by line, or message by message of a framed format."""
         rows = self.board.rows(n)
         every, silent = self.faults.pause_every_s, self.faults.pause_s
         if every > 0.0:
             rows = rows[rows["t"] % every < every - silent]
         chunk = self._encoder.encode(rows) if len(rows) else b""
         chunk, self._greeting = self._greeting + chunk, b""
-        return b"".join(map(self._spoil, chunk.splitlines(keepends=True)))
+        size = self.form.message_bytes
+        if self.form.framed:
+            return [self._spoil(chunk[at : at + size]) for at in range(0, len(chunk), size)]
+        return [self._spoil(line) for line in chunk.splitlines(keepends=True)]
 
     def skip(self, n: int) -> None:
         """Let n samples pass without a word: nobody listens, or the board is starting."""

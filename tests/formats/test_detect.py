@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from imugui.formats import FORMATS, Options
+from imugui.formats import FORMATS, STREAM_FORMATS, Options
 from imugui.formats.columns import IMU
 from imugui.formats.detect import BAUDS, BUDGET, PATIENCE, BaudSearch, candidate_bauds
 from imugui.samples import GRAVITY, SAMPLE, Rows, empty_rows
@@ -85,7 +85,7 @@ def search(line: Line, bauds: tuple[int, ...], options: Options) -> tuple[BaudSe
     return found, t
 
 
-@pytest.mark.parametrize("name", list(FORMATS))
+@pytest.mark.parametrize("name", STREAM_FORMATS)
 @pytest.mark.parametrize("sent", BAUDS)
 @pytest.mark.parametrize(("silent", "rate_hz"), [(0.0, 100.0), (2.0, 100.0), (0.5, 10.0)])
 def test_the_rate_is_found_in_time(name: str, sent: int, silent: float, rate_hz: float) -> None:

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from imugui.formats import FORMATS, Options
+from imugui.formats import FORMATS, STREAM_FORMATS, Options
 from imugui.formats.detector import ENOUGH, Detector, detect_file
 from imugui.samples import GRAVITY, SAMPLE, Rows, empty_rows
 
-NAMES = tuple(FORMATS)
+NAMES = STREAM_FORMATS
 
 
 def turning_rows(n: int) -> Rows:

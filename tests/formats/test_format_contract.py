@@ -1,4 +1,4 @@
-"""What every entry of FORMATS promises: the same rows for any cut, nothing lost uncounted, never an exception."""
+"""What every entry of STREAM_FORMATS promises: the same rows for any cut, nothing lost uncounted, no exception."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from imugui.formats import FORMATS, Decoder, LinkLog, Options
+from imugui.formats import FORMATS, STREAM_FORMATS, Decoder, LinkLog, Options
 from imugui.samples import GRAVITY, SAMPLE, Rows, empty_rows
 
 DEG = np.pi / 180
-NAMES = tuple(FORMATS)
+NAMES = STREAM_FORMATS
 HALF_STEP = {  # half a step of the last digit or count on the wire, for gyr, acc, mag, temp_c
     "accel-lines": (0.005 * DEG, 0.005 * GRAVITY, 0.005, 0.005),
     "triplets": (0.005 * DEG, 0.005 * GRAVITY, 0.0005, None),

@@ -18,7 +18,7 @@ if sys.platform == "win32":
 
 from collections.abc import Iterator
 
-from imugui.formats import FORMATS
+from imugui.formats import FORMATS, STREAM_FORMATS
 from imugui.formats.base import Options
 from imugui.simulation import pty_port
 from imugui.simulation.pty_board import PtyBoard
@@ -66,7 +66,7 @@ def reader(port: PtyPort) -> Iterator[Reader]:
     reader.close()
 
 
-@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize("form", STREAM_FORMATS)
 def test_a_second_of_any_format_arrives_whole(port: PtyPort, reader: Reader, form: str) -> None:
     rate_hz = FORMATS[form].rate_hz
     board = PtyBoard(real_board(form, "turns", seed=2), port, start_t=50.0, boot_s=0.0)

@@ -15,10 +15,10 @@ from imugui.simulation.errors import PRESETS
 from imugui.simulation.wire import Faults, Wire, real_board
 
 
-def heard(form: str, chunk: bytes) -> tuple[Rows, int]:
-    """The rows that the format's decoder makes of it, and how many messages it called bad."""
+def heard(form: str, messages: list[bytes]) -> tuple[Rows, int]:
+    """The rows that the format's decoder makes of them, and how many messages it called bad."""
     decoder = FORMATS[form].decoder(Options())
-    rows = np.concatenate([decoder.feed(chunk, 1.0), decoder.flush(2.0)])
+    rows = np.concatenate([*(decoder.feed(message, 1.0) for message in messages), decoder.flush(2.0)])
     return rows, decoder.counts.bad_messages
 
 
@@ -26,7 +26,7 @@ def heard(form: str, chunk: bytes) -> tuple[Rows, int]:
 def test_every_format_carries_every_sample_of_a_real_board(form: str) -> None:
     wire = real_board(form, "driving", PRESETS["ideal"], seed=3)
     true = VirtualBoard("driving", FORMATS[form].rate_hz, seed=3).rows(600)
-    rows, bad = heard(form, wire.take(600))
+    rows, bad = heard(form, wire.messages(600))
     assert len(rows) == 600
     assert bad == 0
     assert np.abs(rows["acc"] - true["acc"]).max() < 0.05  # 0.01 g of quantisation
@@ -34,13 +34,13 @@ def test_every_format_carries_every_sample_of_a_real_board(form: str) -> None:
 
 
 def test_the_screw_assistants_board_holds_its_magnetometer_for_17_or_18_messages() -> None:
-    rows, _ = heard("accel-lines", real_board("accel-lines", "free").take(2000))
+    rows, _ = heard("accel-lines", real_board("accel-lines", "free").messages(2000))
     new = np.flatnonzero((rows["mag"][1:] != rows["mag"][:-1]).any(axis=1))
     assert set(np.diff(new).tolist()) == {17, 18}
 
 
 def test_the_car_sends_its_place_ten_times_a_second() -> None:
-    rows, _ = heard("triplets", real_board("triplets", "driving").take(round(FORMATS["triplets"].rate_hz * 5)))
+    rows, _ = heard("triplets", real_board("triplets", "driving").messages(round(FORMATS["triplets"].rate_hz * 5)))
     assert np.count_nonzero(~np.isnan(rows["lat"])) == pytest.approx(50, abs=1)
 
 
@@ -68,7 +68,7 @@ def test_the_bytes_do_not_depend_on_how_many_samples_are_taken(form: str, cuts: 
 @pytest.mark.parametrize("form", FORMATS)
 def test_cut_and_altered_lines_are_counted_and_the_others_arrive(form: str) -> None:
     wire = real_board(form, "turns", seed=1, faults=Faults(cut_percent=3.0, flip_percent=3.0))
-    rows, bad = heard(form, wire.take(1000))
+    rows, bad = heard(form, wire.messages(1000))
     assert wire.spoiled > 20
     assert 0 < bad <= 2 * wire.spoiled
     # a cut line spoils the next one too; four lines make a message of accel-lines
