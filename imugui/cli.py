@@ -17,12 +17,14 @@ import numpy as np
 from imugui import __version__
 from imugui.calibration.profile_file import ProfileError, load
 from imugui.formats import FORMATS, Options
+from imugui.formats.ble_profiles import BLE_PROFILES
 from imugui.formats.column_map import NOT_USED
 from imugui.fusion import DEFAULT_FILTER, FILTERS
 from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
 from imugui.recording import UnreadableError, read_samples, samples_file, write_attitude
 from imugui.samples import Rows
+from imugui.simulation.board import VirtualBoard
 from imugui.simulation.errors import PRESETS
 from imugui.simulation.motions import MOTIONS
 
@@ -35,6 +37,7 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="imugui", description=f"imugui opens its window. {NOTE}")
     top.add_argument("--version", action="version", version=f"imugui {__version__}")
     top.add_argument("--port", help="connect to this serial port at once")
+    top.add_argument("--ble", metavar="NAME", help="connect to this Bluetooth board at once, by its name or address")
     top.add_argument("--recording", help="open this file at once")
     top.add_argument("--simulate", choices=list(MOTIONS), help="start the simulated board at once")
     top.set_defaults(command=None)
@@ -55,19 +58,32 @@ def fail(text: str) -> int:
 # ports
 
 
-def _add_ports(_: argparse.ArgumentParser) -> None:
-    """No arguments."""
+def _add_ports(one: argparse.ArgumentParser) -> None:
+    one.add_argument("--seconds", type=float, default=3.0, help="how long to listen for Bluetooth boards; 0: do not")
+    one.add_argument("--all", action="store_true", help="list Bluetooth devices that are no known boards, too")
 
 
-def _ports(_: argparse.Namespace) -> int:
+def _ports(arguments: argparse.Namespace) -> int:
     from imugui.workers.serial_transport import list_ports
 
     ports = list_ports()
     for port in ports:
-        print(port.device, port.description, port.hint, sep="\t")
+        print(port.device, port.description, port.hint, sep="\t", flush=True)
     if not ports:
         print("No serial port found: plug a board in (some cables only charge).", file=sys.stderr)
+    if arguments.seconds > 0.0:
+        _list_bluetooth(arguments.seconds, arguments.all)
     return OK
+
+
+def _list_bluetooth(seconds: float, everything: bool) -> None:
+    from imugui.workers.ble_list import found_boards
+
+    lines, remark = found_boards(seconds, everything)
+    for line in lines:
+        print(line)
+    if remark:
+        print(remark, file=sys.stderr)
 
 
 # simulate
@@ -79,9 +95,12 @@ def _add_simulate(one: argparse.ArgumentParser) -> None:
     one.add_argument("--errors", choices=list(PRESETS), default="mpu9250")
     one.add_argument("--seed", type=int, default=1)
     one.add_argument("--port-link", type=Path, help="a steady name for the port")
+    one.add_argument("--ble", action="store_true", help="an emulated Bluetooth board on a private bus instead (Linux)")
 
 
 def _simulate(arguments: argparse.Namespace) -> int:
+    if arguments.ble or FORMATS[arguments.format].framed:
+        return _simulate_ble(arguments)
     from imugui.simulation.pty_board import PtyBoard
     from imugui.simulation.pty_port import PtyPort
     from imugui.simulation.wire import real_board
@@ -93,11 +112,41 @@ def _simulate(arguments: argparse.Namespace) -> int:
         return fail(str(error))
     wire = real_board(arguments.format, arguments.motion, PRESETS[arguments.errors], arguments.seed)
     print(f"{arguments.format} at {wire.board.rate_hz:g} Hz on {port.path}  (Ctrl-C stops)", flush=True)
+    PtyBoard(wire, port, time.monotonic()).run_until(_stop_signal())
+    port.close()
+    return OK
+
+
+def _stop_signal() -> threading.Event:
+    """Set by Ctrl-C, or when the process is asked to end."""
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
-    PtyBoard(wire, port, time.monotonic()).run_until(stop)
-    port.close()
+    return stop
+
+
+def _simulate_ble(arguments: argparse.Namespace) -> int:
+    from imugui.simulation.ble import missing
+
+    kinds = {profile.format: kind for kind, profile in BLE_PROFILES.items()}
+    if not arguments.ble:
+        return fail(f"{arguments.format} is spoken over Bluetooth only: add --ble.")
+    if arguments.format not in kinds:
+        return fail(f"{arguments.format} is not spoken over Bluetooth. There are {', '.join(kinds)}.")
+    if lacking := missing():
+        return fail(lacking)
+    from imugui.simulation.ble.lab import BleLab
+
+    rate_hz = FORMATS[arguments.format].rate_hz
+    board = VirtualBoard(arguments.motion, rate_hz, PRESETS[arguments.errors], arguments.seed)
+    try:
+        with BleLab(exported=False) as lab:
+            card = lab.add_board(kinds[arguments.format], board=board)
+            print(f"{card.name} ({card.address}), {arguments.format} at {rate_hz:g} Hz  (Ctrl-C stops). Reach it with:")
+            print(f"DBUS_SYSTEM_BUS_ADDRESS={lab.address} imugui live --ble {card.name}", flush=True)
+            _stop_signal().wait()
+    except OSError as error:
+        return fail(str(error))
     return OK
 
 
@@ -133,11 +182,10 @@ def _replay(arguments: argparse.Namespace) -> int:
             return fail(f"{path}: no attitude without {missing}. Found: {capture.decoder.seen}")
         correction = _correction(arguments.profile, capture.rows) if arguments.profile else None
         pipeline = Pipeline(name, correction=correction, use_mag=not arguments.no_mag)
-        fused = pipeline.step(capture.rows)
         metadata = {"imugui": __version__, "source": arguments.file.name, "format": capture.format}
         metadata |= {"filter": name, "frame": "ENU, sensor to earth", "found": capture.decoder.seen}
         metadata |= {"profile": arguments.profile.name} if arguments.profile else {}
-        write_attitude(arguments.out, fused, metadata)
+        write_attitude(arguments.out, pipeline.steps(capture.rows), metadata)
     except (UnreadableError, ProfileError) as error:
         return fail(str(error))
     except OSError as error:
@@ -217,6 +265,7 @@ def _verify(arguments: argparse.Namespace) -> int:
 def _add_live(one: argparse.ArgumentParser) -> None:
     where = one.add_mutually_exclusive_group(required=True)
     where.add_argument("--port", help="a serial port, or any URL that pyserial takes")
+    where.add_argument("--ble", metavar="NAME", help="a Bluetooth board, by its name or its address")
     where.add_argument("--recording", type=Path, help="a file, at the speed it was made")
     where.add_argument("--simulate", choices=list(MOTIONS), help="the virtual board, without a port")
     _add_fusion(one)
@@ -231,7 +280,8 @@ def _live(arguments: argparse.Namespace) -> int:
     from imugui.workers.headless import run_session
     from imugui.workers.session import Source
 
-    places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
+    places = {"serial": arguments.port, "ble": arguments.ble, "replay": arguments.recording}
+    places["simulator"] = arguments.simulate
     kind, address = next((kind, str(place)) for kind, place in places.items() if place)
     follow = arguments.filter is None
     source = Source(
@@ -268,12 +318,48 @@ def _demo(arguments: argparse.Namespace) -> int:
     return run_demo(arguments.out, arguments.seconds)
 
 
+# study
+
+
+def _add_study(one: argparse.ArgumentParser) -> None:
+    what = one.add_subparsers(dest="what", required=True, metavar="simulate|report")
+    text = "simulated people play position against speed, and the report is written"
+    made = what.add_parser("simulate", help=text, description=text)
+    made.add_argument("--out", type=Path, required=True, metavar="DIR", help="a new or an empty folder")
+    made.add_argument("--participants", type=int, default=6)
+    made.add_argument("--blocks", type=int, default=3, help="of each condition, after a practice run")
+    made.add_argument("--runs", type=int, default=1, help="in a block")
+    made.add_argument("--seed", type=int, default=1, help="the same seed gives the same targets and people")
+    made.add_argument("--resume", action="store_true", help="go on with the one in DIR, as it was planned")
+    told = what.add_parser("report", help="write report.html and runs.csv of a study into its folder")
+    told.add_argument("folder", type=Path, metavar="DIR")
+
+
+def _study(arguments: argparse.Namespace) -> int:
+    from imugui import study
+    from imugui.targeting.study_store import StudyError
+
+    one, folder = arguments, arguments.folder if arguments.what == "report" else arguments.out
+    try:
+        if one.what == "report":
+            print(study.report(folder))
+        else:
+            order = (folder, one.participants, one.blocks, one.runs, one.seed, one.resume)
+            print(study.simulate(*order, lambda line: print(line, file=sys.stderr, flush=True)))
+    except StudyError as error:
+        return fail(str(error))
+    except OSError as error:
+        return fail(f"{error.filename or folder}: {error.strerror or error}")
+    return OK
+
+
 COMMANDS = {
     "demo": (_add_demo, _demo, "the virtual board through a real port, the fusion and every page, without a screen"),
-    "ports": (_add_ports, _ports, "list serial ports, one line each"),
-    "simulate": (_add_simulate, _simulate, "a virtual board on a pseudo-terminal, until stopped"),
+    "ports": (_add_ports, _ports, "list serial ports and Bluetooth boards, one line each"),
+    "simulate": (_add_simulate, _simulate, "a virtual board on a pseudo-terminal or on Bluetooth, until stopped"),
     "live": (_add_live, _live, "read a board, fuse, and report"),
     "verify": (_add_verify, _verify, "compute a recording again from its raw bytes and compare"),
     "calibrate": (_add_calibrate, _calibrate, "find what is wrong with a board's sensors, from recordings"),
+    "study": (_add_study, _study, "the targeting game as a study: simulated people play it, or its report is written"),
     "replay": (_add_replay, _replay, "fuse a file as fast as it goes, and write the attitude"),
 }

@@ -178,7 +178,7 @@ def _frozen(rows: Rows) -> str:
 def _not_still(rows: Rows) -> RestResult:
     """Refused: handled, or simply too short so far."""
     rate = rate_of(rows)
-    seconds = float(rows["t"][-1] - rows["t"][0])
+    seconds = (len(rows) - 1) / rate if rate > 0.0 else 0.0  # what was seen: a gap does not count
     if rate == 0.0 or seconds < 0.5 + 2 / rate:
         return RestResult(False, f"Only {seconds:.1f} s came so far; {AT_REST.shortest_s:g} s still are needed.")
     gyr, acc = wander(rows["gyr"], rate), wander(rows["acc"], rate)

@@ -122,6 +122,15 @@ def angle_between(p: ArrayLike, q: ArrayLike) -> Floats:
     return np.asarray(2.0 * np.arctan2(length(error[..., 1:]), np.abs(error[..., 0])))
 
 
+def slerp(p: ArrayLike, q: ArrayLike, share: ArrayLike) -> Floats:
+    """The attitude that part of the shortest way from p to q, unit quaternions (..., 4); share (...): 0 is p, 1 is q.
+
+    K. Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985, as p (p^-1 q)^share.
+    """
+    step = to_rotation_vector(multiply(conjugate(p), q))
+    return multiply(p, from_rotation_vector(np.asarray(share, float)[..., None] * step))
+
+
 def _parts(values: ArrayLike) -> tuple[Floats, ...]:
     array = np.asarray(values, float)
     return tuple(array[..., i] for i in range(array.shape[-1]))

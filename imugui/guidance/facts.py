@@ -30,6 +30,8 @@ class Facts:
     base_heading: float = math.nan  # rad, 1 sigma that the magnetometer's calibration leaves
     drift: float = math.nan  # rad/s, 1 sigma of the heading without the magnetometer
     turn_share: float = math.nan  # 1 sigma of the gyroscope's scale and cross-axis terms
+    relative: bool = False  # of the tool against a reference board, in that board's frame: up is not known there
+    aligned_at: float = math.inf  # the headings of the two drift apart since then; infinite where they do not
 
     arrival: float = math.nan  # of the newest usable attitude
     registration: Registration | None = None

@@ -214,6 +214,7 @@ class Guide:
             profile=facts.profile_words[:LONGEST_TEXT],
             filter=facts.filter,
             use_mag=facts.use_mag,
+            relative=facts.relative,
             version=__version__,
             utc=now_utc(),
         )
@@ -230,8 +231,13 @@ class Guide:
             side_confirmed=plan is not None and plan.side in ("", self.confirmed_side),
             plan_problem=self._problem,
             axis_error=math.radians(self.tool_axis_quality_deg),
-            tilt_from_vertical=from_vertical(self._stream.way) if len(self._stream.rows) else math.nan,
+            tilt_from_vertical=self._lean(facts, self._stream.way) if len(self._stream.rows) else math.nan,
         )
+
+    @staticmethod
+    def _lean(facts: Facts, way: Floats) -> float:
+        """The angle of a direction (3,) from the vertical, rad; NaN, the worst case, in a frame that has none."""
+        return math.nan if facts.relative else from_vertical(way)
 
     def _follow(self, fresh: int, trusted: bool) -> None:
         """Take the newest rows through hold and progress."""
@@ -253,7 +259,7 @@ class Guide:
         if target is None or registration is None or len(stream.rows) == 0:
             return looked(look, trust, None)
         # the tool lies anywhere between two aims: how long the registration lasts is asked at the plan
-        planned = replace(facts, tilt_from_vertical=from_vertical(np.asarray(registration.matrix) @ target.way))
+        planned = replace(facts, tilt_from_vertical=self._lean(facts, np.asarray(registration.matrix) @ target.way))
         ways = stream.directions[-len(stream.recent(TRAIL_S)) :]
         look = replace(
             look,

@@ -8,7 +8,7 @@ from typing import Any
 
 from imugui.guidance.plan import FIELDS, KINDS, MAY_BE_OPEN, REFERENCES, SIDES, Plan, field_problem
 
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?", re.ASCII)
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3})?", re.ASCII)
 CHOICES = {"kind": KINDS, "side": SIDES, "reference": REFERENCES}
 SHORT = {"side": {"l": "left", "r": "right"}}
 """Other spellings, in lower case -> the value."""

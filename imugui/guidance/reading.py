@@ -28,7 +28,8 @@ class Reading:
 
     ``error_deg`` is the angle between direction and plan, ``medial_deg`` and ``cranial_deg`` its parts in the log map
     at the plan. ``sigma_deg``: the error to expect of it (sigma.py). ``steadiness_deg_s``: how fast the axis moved.
-    ``rows``: first and last attitude number of the hold of which ``direction`` is the mean.
+    ``rows``: first and last attitude number of the hold of which ``direction`` is the mean. ``relative``: it was
+    measured against a reference board, so the recording of one board cannot give it again.
     """
 
     number: int
@@ -53,6 +54,7 @@ class Reading:
     profile: str = ""
     filter: str = ""
     use_mag: bool = False
+    relative: bool = False
     version: str = ""
     utc: str = ""
     frame: str = FRAME

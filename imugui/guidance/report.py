@@ -169,6 +169,7 @@ def _origins(readings: Sequence[Reading]) -> str:
         lines = {
             "Registration": f"{registration.id}: {registration.words} Residual {registration.residual_deg:.1f}°.",
             "Calibration": reading.profile or "none",
+            "Measured": "against a reference board" if reading.relative else "against the earth",
             "Filter": f"{reading.filter or 'not known'}, magnetometer {magnetometer}",
             "Tool axis in the box": ", ".join(f"{part:+.4f}" for part in reading.tool_axis),
             "Version": f"imugui {reading.version}",

@@ -127,6 +127,7 @@ def values(reading: Reading) -> dict[str, str | int | float]:
         "registration_method": reading.registration.method,
         "registration_residual_deg": reading.registration.residual_deg,
         "profile": reading.profile,
+        "measured": "against a reference board" if reading.relative else "against the earth",
         "filter": reading.filter,
         "magnetometer": "used" if reading.use_mag else "not used",
         "version": reading.version,

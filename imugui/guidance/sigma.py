@@ -51,13 +51,19 @@ def heading_sigma(facts: Facts) -> float:
     """
     if facts.use_mag:
         return facts.base_heading if math.isnan(facts.sigma_heading) else facts.sigma_heading
-    aged = math.hypot(facts.drift * heading_age(facts), facts.turn_share * facts.turning)
+    aged = math.hypot(facts.drift * drift_age(facts), facts.turn_share * facts.turning)
     return math.hypot(aged, known(facts.sigma_heading))
 
 
 def heading_age(facts: Facts) -> float:
     """Seconds since the registration; NaN without one."""
     return facts.now - facts.registered_at if facts.registration is not None else math.nan
+
+
+def drift_age(facts: Facts) -> float:
+    """Seconds since the heading drifts: since the registration or, where it was before, the alignment of two boards."""
+    since = min(facts.registered_at, facts.aligned_at)
+    return facts.now - since if facts.registration is not None else math.nan
 
 
 def seconds_left(facts: Facts, limit: float) -> float:
@@ -73,7 +79,7 @@ def seconds_left(facts: Facts, limit: float) -> float:
         return 0.0
     if rate == 0.0:
         return math.inf
-    return max(0.0, math.sqrt(spare - turned) / rate - heading_age(facts))
+    return max(0.0, math.sqrt(spare - turned) / rate - drift_age(facts))
 
 
 def lean(facts: Facts) -> float:

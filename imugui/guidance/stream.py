@@ -119,21 +119,22 @@ class Stream:
             arrival=facts.arrival if math.isnan(self._arrival) else self._arrival,
             epoch_words=facts.epoch_words or self.lost,
             drift=self._drift(facts),
-            turning=self._turning.size,
+            turning=facts.turning if facts.relative else self._turning.size,
             mag_disturbed=facts.mag_disturbed or bool(recent["disturbed"].any()),
-            shaken=facts.shaken or _pushed(recent),
+            shaken=facts.shaken or (not facts.relative and pushed(recent)),
             sigma_tilt=float(newest["sigma_tilt"][0]) if len(newest) else math.nan,
             sigma_heading=float(newest["sigma_heading"][0]) if len(newest) else math.nan,
         )
 
     def _drift(self, facts: Facts) -> float:
-        """1 sigma in rad/s of the heading's drift now, from that of a board soon after a rest."""
+        """1 sigma in rad/s of the heading's drift now, from that soon after a rest; of two boards, of both."""
+        boards = math.sqrt(2.0) if facts.relative else 1.0
         if math.isnan(self._rest_t):
-            return max(facts.drift, UNRESTED_DRIFT)
+            return max(facts.drift, boards * UNRESTED_DRIFT)
         warmer = abs(facts.temp_c - self._rest_temp_c)
         if math.isnan(warmer):
             warmer = WARM_UP_K * -math.expm1((self._rest_t - self._t) / WARM_UP_S)
-        return math.hypot(facts.drift, WARM_DRIFT * warmer)
+        return math.hypot(facts.drift, boards * WARM_DRIFT * warmer)
 
     def recent(self, seconds: float) -> Rows:
         """The rows of the last so many seconds, as far as they are unbroken; at most KEEP_S."""
@@ -171,8 +172,8 @@ def _unbroken(rows: Rows, good: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> i
     return int(max(after_bad[-1] + 1 if len(after_bad) else 0, after_gap[-1] if len(after_gap) else 0))
 
 
-def _pushed(rows: Rows) -> bool:
-    """Whether the mean specific force of ATTITUDE rows (n,), earth axes, is not gravity's alone."""
+def pushed(rows: Rows) -> bool:
+    """Whether the mean specific force of a board's own ATTITUDE rows (n,), earth axes, is not gravity's alone."""
     if len(rows) == 0 or rows["t"][-1] - rows["t"][0] < HALF_S:
         return False
     force = rotate(rows["quat"], rows["acc"]).mean(axis=0) - (0.0, 0.0, GRAVITY)

@@ -18,6 +18,8 @@ KINDS = (
     "origin",
     "restart",  # the filter began again, because what came did not follow what was
     "marker",
+    "guidance",  # a registration or a reading of the Guide page
+    "game",  # settings, inputs and results of the Target page
     "problem",
     "stop",
 )
@@ -57,6 +59,6 @@ def _from_line(line: str) -> Event | None:
         event = Event(
             str(values["kind"]), float(values["t"]), int(values["sample"]), str(values["text"]), dict(values["data"])
         )
-    except (ValueError, KeyError, TypeError, RecursionError):
+    except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
         return None
     return event if event.kind in KINDS and event.sample >= 0 else None

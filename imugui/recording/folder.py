@@ -24,7 +24,7 @@ import numpy as np
 
 from imugui.formats import FORMATS, Options
 from imugui.formats.csv_line import CsvLineEncoder
-from imugui.recording.attitude_csv import attitude_lines, read_attitude
+from imugui.recording.attitude_csv import attitude_lines, bounded_lines, read_attitude
 from imugui.recording.csv_files import ATTITUDE_COLUMNS, UnreadableError, Watch, chunks_of
 from imugui.recording.events import Event, from_lines, to_line
 from imugui.recording.raw import Chunk, pack
@@ -34,6 +34,7 @@ SUFFIX = ".imugui"
 VERSION = 1
 ABOUT, SAMPLES, ATTITUDE, EVENTS, RAW = "about.json", "samples.csv", "attitude.csv", "events.jsonl", "raw.bin"
 LARGEST_JSON = 1 << 24
+LONGEST_COMMENT = 2000
 
 
 class FolderWriter:
@@ -47,7 +48,8 @@ class FolderWriter:
         self._write_about()
         self._encoder = CsvLineEncoder(with_position=True)  # always: a table whose columns change opens nowhere
         self._streams = {name: (folder / name).open("ab", buffering=1 << 16) for name in (SAMPLES, ATTITUDE, EVENTS)}
-        comments = "".join(f"# {key}: {value}\n" for key, value in self.about.items() if isinstance(value, str))
+        texts = {key: " ".join(value.split()) for key, value in self.about.items() if isinstance(value, str)}
+        comments = "".join(f"# {key}: {text[:LONGEST_COMMENT]}\n" for key, text in texts.items())
         self._streams[SAMPLES].write(comments.encode() + self._encoder.preamble())
         self._streams[ATTITUDE].write(f"{comments}{ATTITUDE_COLUMNS}\n".encode())
 
@@ -135,7 +137,7 @@ def read_recording(path: Path, watch: Watch | None = None) -> Recording:
     ``watch`` is told the share of the samples that was read.
     """
     folder = path if path.is_dir() else path.parent
-    about = _read_about(folder / ABOUT)
+    about = read_about(path)
     warnings = [] if "ended" in about else ["The recording was cut off: the program or the disk stopped in the middle."]
     samples, bad = _read_samples(folder / SAMPLES, watch)
     attitude, bad_attitude = read_attitude(folder / ATTITUDE)
@@ -148,7 +150,9 @@ def read_recording(path: Path, watch: Watch | None = None) -> Recording:
     return Recording(folder, about, samples, attitude, events, tuple(warnings))
 
 
-def _read_about(path: Path) -> dict[str, Any]:
+def read_about(recording: Path) -> dict[str, Any]:
+    """What a recording (its folder, or a file in it) says of itself; UnreadableError says why it cannot be read."""
+    path = (recording if recording.is_dir() else recording.parent) / ABOUT
     try:
         if path.stat().st_size > LARGEST_JSON:
             raise UnreadableError(f"{path}: too large to be a recording's description")
@@ -174,12 +178,11 @@ def _read_samples(path: Path, watch: Watch | None) -> tuple[Rows, int]:
     # a last line without its end was cut: it is damage, not data
     rows = np.concatenate(blocks) if blocks else decoder.flush(np.nan)
     rows["t_arrival"] = np.nan
-    return rows, decoder.counts.bad_messages
+    return rows, decoder.counts.bad_messages + decoder.counts.overlong
 
 
 def _read_events(path: Path) -> tuple[list[Event], int]:
     try:
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        return from_lines(bounded_lines(path, LARGEST_JSON))
     except OSError:
         return [], 1
-    return from_lines(lines)

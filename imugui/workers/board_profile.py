@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
@@ -15,18 +17,22 @@ from imugui.calibration.profile_store import ProfileStore
 from imugui.calibration.rest import auto_bias
 from imugui.fusion.correction import Correction
 from imugui.samples import Rows
+from imugui.workers.recorded_profile import Calibrated, calibrated_then
 from imugui.workers.serial_transport import serial_number
 from imugui.workers.transport import Source
 
 START_UP_S = 12.0  # how long after connecting a board that lies still gives its gyroscope bias by itself
 TRY_EVERY_S = 1.0
 ALARM_ROWS = 4096
+FACTORY = ("ideal", "mpu9250-calibrated")  # errors of virtual boards that need no calibration of ours
 
 
 def board_of(source: Source) -> Board:
     """Whose profile a source uses; a file has none of its own."""
     if source.transport == "serial":
         return Board("serial", serial_number(source.address) or source.address)
+    if source.transport == "ble":
+        return Board("ble", source.address.lower(), source.address)
     if source.transport == "simulator":
         return Board("simulator", f"{source.errors}, seed {source.seed}", f"Simulated board {source.seed}")
     return Board()
@@ -43,6 +49,7 @@ class BoardProfile:
         self._tried = -math.inf
         self.biased = False  # the board lay still after connecting and gave its gyroscope bias by itself
         self._bias_known = source.transport == "replay"
+        self._source = source
 
     def load(self) -> list[str]:
         """Find the board's profile; returns a sentence for each thing the user should know."""
@@ -85,6 +92,17 @@ class BoardProfile:
     def watch(self, rows: Rows) -> str:
         """The alarm's light after new ATTITUDE rows, shape (n,): "off", "green", "yellow" or "red"."""
         return self.alarm.feed(rows[-ALARM_ROWS:]) if self.alarm and len(rows) else self.light
+
+    @property
+    def calibrated(self) -> Calibrated:
+        """How the board is calibrated; of a recording, how it was."""
+        if self._source.transport == "replay":
+            return self._then
+        return Calibrated(self.profile, self._source.transport == "simulator" and self._source.errors in FACTORY)
+
+    @cached_property
+    def _then(self) -> Calibrated:
+        return calibrated_then(Path(self._source.address))
 
     @property
     def words(self) -> str:

@@ -1,7 +1,8 @@
-"""The fusion thread: at a fixed cadence, every new sample once through the pipeline."""
+"""The fusion thread: as soon as samples arrive, at a bounded cadence, every one once through the pipeline."""
 
 from __future__ import annotations
 
+import threading
 import time
 from collections import deque
 from collections.abc import Callable
@@ -12,12 +13,13 @@ import numpy as np
 from imugui.fusion.pipeline import Pipeline
 from imugui.recording.events import Event
 from imugui.ring import Ring
-from imugui.samples import Rows
-from imugui.workers.changes import CHANGES, start_of
+from imugui.samples import ATTITUDE, Rows, empty_rows
+from imugui.workers.changes import CHANGES, rehearse, start_of
 from imugui.workers.recorder import Tap
 from imugui.workers.worker import Worker
 
-TICK_S = 1.0 / 200.0
+TICK_S = 1.0 / 200.0  # the slowest cadence, when nothing arrives
+SHORTEST_TICK_S = 1.0 / 500.0  # the quickest: a block costs more than its rows
 BIN_MS = 0.1
 BINS = 20_000  # ages up to 2 s
 NOW = -1
@@ -64,10 +66,12 @@ class FusionWorker(Worker):
         self._running = pipeline
         self._actions: deque[tuple[int, Action]] = deque()
         self._followed: deque[tuple[int, Action]] = deque()  # what a recording did, while it is replayed
-        self._samples = samples
-        self._attitude = attitude
+        self.samples = samples
+        self.attitude = attitude
         self._count = samples.count
-        self._due = time.perf_counter()
+        self._breaks = 0
+        self._fresh = threading.Event()
+        self._drained = 0.0  # host time of the last tick, s
 
     def at(self, sample: int, action: Action) -> None:
         """Call ``action`` just before the sample of this number (NOW: the next) is fused; numbers must not fall."""
@@ -81,7 +85,7 @@ class FusionWorker(Worker):
         def exchange(number: int) -> None:
             if carry_on:
                 pipeline.continue_from(self._running)
-            self._running = pipeline
+            self._swap(pipeline, anew=not carry_on)
             self._note("filter", number, pipeline.filter_name, {"carry_on": carry_on, "pipeline": pipeline.settings()})
 
         self.at(sample, exchange)
@@ -113,10 +117,12 @@ class FusionWorker(Worker):
         start = start_of(events)
         if start is None:
             return
+        rehearse(start, events)
         pipeline = Pipeline.from_state(start.data["pipeline"])
 
         def begin(_: int) -> None:
-            self._running = self.pipeline = pipeline
+            self.pipeline = pipeline
+            self._swap(pipeline, anew=True)
 
         self.at(sample, begin)
         for event in events:
@@ -125,20 +131,31 @@ class FusionWorker(Worker):
 
     def _as_before(self, event: Event) -> Action:
         def change(_: int) -> None:
-            self._running = self.pipeline = CHANGES[event.kind](self._running, event.data)
+            self.pipeline = CHANGES[event.kind](self._running, event.data)
+            self._swap(self.pipeline, anew=not event.data.get("carry_on", True))
 
         return change
+
+    def _swap(self, pipeline: Pipeline, anew: bool) -> None:
+        """Run this pipeline; with or without the magnetometer, the heading means something else."""
+        old, self._running = self._running, pipeline
+        self._breaks += old.restarts - pipeline.restarts + (anew or old.use_mag != pipeline.use_mag)
 
     @property
     def has_origin(self) -> bool:
         """Whether the shown attitude is relative to an origin."""
         return self._running.origin is not None
 
+    @property
+    def epoch(self) -> int:
+        """Grows whenever the attitude began anew: what was said of an attitude before holds no longer."""
+        return self._breaks + self._running.restarts
+
     def begin_tap(self, tap: Tap, sample: int, found: dict[str, Any]) -> None:
         """Start a recording at that sample, noting what the filter knows and what the reader ``found``."""
 
         def begin(number: int) -> None:
-            tap.first_sample, tap.first_attitude = number, self._attitude.count
+            tap.first_sample, tap.first_attitude = number, self.attitude.count
             self.tap = tap
             self._note("start", number, "", {"pipeline": self._running.state(), **found})
             tap.ready.set()
@@ -148,6 +165,18 @@ class FusionWorker(Worker):
     def mark(self, text: str) -> None:
         """Note a marker at the next sample."""
         self.at(NOW, lambda number: self._note("marker", number, text, {}))
+
+    def note(self, kind: str, text: str, data: dict[str, Any], attitude_number: int | None) -> None:
+        """Note something else, at once, from any thread; ``attitude_number`` says at which attitude (None: the next).
+
+        What it says can be computed again without it: it need not stand among the changes in its order.
+        """
+        tap = self.tap
+        if tap is None:
+            return
+        into = 0 if attitude_number is None else max(0, attitude_number - tap.first_attitude)
+        number = self._count if attitude_number is None else tap.first_sample + into
+        self._note(kind, number, text, {**data, "first_attitude": tap.first_attitude})
 
     def end_tap(self) -> None:
         """The recording ends: nothing is noted any more."""
@@ -159,40 +188,55 @@ class FusionWorker(Worker):
         return self._count
 
     def step(self) -> None:
-        self._due = max(self._due + TICK_S, time.perf_counter() - TICK_S)
-        self.stopping.wait(max(0.0, self._due - time.perf_counter()))
+        self._fresh.wait(TICK_S)
+        rest_s = self._drained + SHORTEST_TICK_S - time.perf_counter()
+        if rest_s > 0.0:
+            time.sleep(rest_s)
+        self._fresh.clear()
+        self._drained = time.perf_counter()
         self.drain()
+
+    def wake(self) -> None:
+        """Rows were pushed: take them now, not only at the next tick; from any thread."""
+        self._fresh.set()
 
     def drain(self) -> None:
         """Everything that is new, now."""
-        rows, count, missed = self._samples.since(self._count)
+        rows, count, missed = self.samples.since(self._count)
         self.missed_rows += missed
         first, at = count - len(rows), 0
         while (queue := self._due_first(count)) is not None:
             number, action = queue.popleft()
             cut = max(number - first, at)
-            self._fuse(rows[at:cut])
+            self._fuse(rows[at:cut], first + cut)
             at = cut
             action(first + at)
-        self._fuse(rows[at:])
-        self._count = count
+        self._fuse(rows[at:], count)
 
     def _due_first(self, count: int) -> deque[tuple[int, Action]] | None:
         """The queue whose first action comes first, if it is due before sample ``count``."""
         queues = [queue for queue in (self._actions, self._followed) if queue and queue[0][0] <= count]
         return min(queues, key=lambda queue: queue[0][0], default=None)
 
-    def _fuse(self, rows: Rows) -> None:
+    def _fuse(self, rows: Rows, count: int) -> None:
+        """Fuse these rows, which end at sample number ``count``; even a defect of the filter has no row fused twice."""
+        self._count = count
         if len(rows) == 0:
             return
-        fused = self._running.step(rows)
+        try:
+            fused = self._running.step(rows)
+        except Exception:
+            self._running.restart()
+            self.attitude.push(empty_rows(ATTITUDE, len(rows)))
+            raise
         now = time.perf_counter()
         fused["t_publish"] = now
-        self._attitude.push(fused)
+        self.attitude.push(fused)
         self.ages.add(now - rows["t_arrival"])
 
     def _note(self, kind: str, number: int, text: str, data: dict[str, Any]) -> None:
-        if self.tap is not None:
-            newest = self._attitude.last(1)
+        tap = self.tap
+        if tap is not None:
+            newest = self.attitude.last(1)
             t = float(newest["t"][0]) if len(newest) else float("nan")
-            self.tap.events.append(Event(kind, t, number - self.tap.first_sample, text, data))
+            tap.events.append(Event(kind, t, number - tap.first_sample, text, data))

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from imugui.formats import FORMATS, Counts, Decoder, LinkLog
+from imugui.formats import FORMATS, STREAM_FORMATS, Counts, Decoder, LinkLog
 from imugui.formats.detect import BaudSearch, candidate_bauds
 from imugui.fusion.timing import ArrivalClock, DeviceClock
 from imugui.samples import SAMPLE, Rows
-from imugui.workers.transport import Source
+from imugui.workers.transport import Arrivals, Source
 
 NO_BAUD = (0,)
 HEAD = 1 << 13
@@ -48,6 +48,10 @@ class Intake:
             entries.insert(0, (entries[0][0], "note", f"{self._log.dropped} older entries are no longer kept"))
         return entries
 
+    def note(self, t: float, text: str) -> None:
+        """Put what happened to the link at host time t (s) into the log."""
+        self._log.add(t, "note", text)
+
     def opened(self, transport: Any, t: float) -> None:
         """The link was opened, or opened again, at host time t (s)."""
         capture = getattr(transport, "capture", None)
@@ -61,12 +65,14 @@ class Intake:
             self._decoder.resync()
         elif hasattr(transport, "set_baud"):
             self._begin_search(transport, t)
-        elif self._source.format in FORMATS:
-            self._decode_as(self._source.format)
+        elif (name := self._spoken(transport)) in FORMATS:
+            self._decode_as(name)
 
-    def feed(self, data: bytes | Rows, t: float) -> Rows:
+    def feed(self, data: bytes | Arrivals | Rows, t: float) -> Rows:
         """The rows that arrived with ``data`` at host time t (s), with their sample time."""
-        if not isinstance(data, bytes):
+        if isinstance(data, list):
+            rows = self._messages(data)
+        elif not isinstance(data, bytes):
             rows = self._finished(data, t)
         elif self._decoder is not None:
             self.head += data[: HEAD - len(self.head)]
@@ -110,7 +116,11 @@ class Intake:
         return candidate_bauds()
 
     def _names(self) -> tuple[str, ...]:
-        return (self._source.format,) if self._source.format in FORMATS else tuple(FORMATS)
+        return (self._source.format,) if self._source.format in FORMATS else STREAM_FORMATS
+
+    def _spoken(self, transport: Any) -> str:
+        """What the user says the board speaks, else what the transport knows of it."""
+        return self._source.format if self._source.format in FORMATS else getattr(transport, "format", "")
 
     def _found(self, search: BaudSearch) -> Rows:
         if not search.verdict.format:
@@ -135,6 +145,12 @@ class Intake:
             decoder.log.add(*entry)
         self._decoder, self.format = decoder, name
         self.counts, self._log = decoder.counts, decoder.log
+
+    def _messages(self, messages: Arrivals) -> Rows:
+        """What came one by one keeps its own arrival times."""
+        if self._decoder is None or not messages:
+            return np.empty(0, SAMPLE)
+        return np.concatenate([self._decoder.feed(data, t) for t, data in messages])
 
     def _play(self, capture: Any) -> None:
         """A file that was decoded when it was opened: its rows carry time."""

@@ -24,10 +24,19 @@ PORT_ERRORS = (SerialException, OSError, _TermiosError, ValueError)
 
 @dataclass(frozen=True)
 class Problem:
-    """``kind`` is a key of SENTENCES."""
+    """``kind`` is a key of SENTENCES, here or in ble_errors."""
 
     kind: str
     sentence: str
+    cause: bool = False  # it explains a loss that was said before, and is said itself when it is found
+
+
+class LinkError(OSError):
+    """A failure that is known in words where it is raised."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem.sentence)
+        self.problem = problem
 
 
 SENTENCES = {
@@ -59,6 +68,8 @@ _WINDOWS_KINDS = {2: "missing", 3: "missing", 5: "busy", 22: "gone", 31: "gone",
 
 def explain(error: BaseException, port: str, *, opening: bool) -> Problem:
     """The problem behind an exception that opening (or, if not ``opening``, reading) ``port`` raised."""
+    if isinstance(error, LinkError):
+        return error.problem
     kind = _kind(error, opening)
     text = SENTENCES[kind].format(port=port, remedy=_remedy(port), detail=str(error) or type(error).__name__)
     return Problem(kind, text)
@@ -66,6 +77,8 @@ def explain(error: BaseException, port: str, *, opening: bool) -> Problem:
 
 def explain_file(error: BaseException, path: str) -> Problem:
     """The problem behind an exception that opening a file, or making the virtual board, raised."""
+    if isinstance(error, LinkError):
+        return error.problem
     if isinstance(error, ValueError):
         return Problem("file", str(error))
     detail = getattr(error, "strerror", None) or str(error)

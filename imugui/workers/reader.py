@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 from PySide6.QtCore import Signal
 
@@ -15,7 +16,8 @@ from imugui.workers.fusion_worker import FusionWorker
 from imugui.workers.intake import Intake
 from imugui.workers.port_errors import PORT_ERRORS, Problem, explain, explain_file
 from imugui.workers.recorder import Tap
-from imugui.workers.transport import Source, Transport
+from imugui.workers.status import board_facts
+from imugui.workers.transport import Arrivals, Source, Transport
 from imugui.workers.verdict import Facts
 from imugui.workers.worker import Worker
 
@@ -59,13 +61,30 @@ class Reader(Worker):
         """From the next arrival on leave bytes and events in this tap; None: no more."""
         self._new_tap = tap
 
+    @property
+    def where(self) -> str:
+        """What to call the place the samples come from."""
+        return getattr(self._transport, "title", self.source.address)
+
+    @property
+    def found(self) -> Source:
+        """The source, with the address of the board that was found where it was called by its name."""
+        address = getattr(self._transport, "address", "")
+        return replace(self.source, address=address) if address else self.source
+
+    @property
+    def board_facts(self) -> dict[str, Any]:
+        """What a wireless board tells of itself, under the names of Status."""
+        return board_facts(self._transport)
+
     def facts(self, now: float, odd: str) -> Facts:
         """What is known of the link at host time now (s); ``odd`` says what makes its values impossible."""
         link, intake = self.link, self.intake
         return Facts(
             now=now,
             phase=link.phase,
-            where=self.source.address,
+            where=self.where,
+            wireless=getattr(self._transport, "wireless", False),
             problem=link.problem.sentence if link.problem else "",
             progress=getattr(self._transport, "progress", 0.0),
             paused=getattr(self._transport, "paused", False),
@@ -104,24 +123,41 @@ class Reader(Worker):
         self.link.problem = None
         self._follow(getattr(self._transport, "recording", None))
         self.intake.opened(self._transport, self.link.opened)
+        self.intake.note(self.link.opened, f"{self.where} is open")
         if self._tap is not None:
             self._tap.raw.append((self.link.opened, b""))
-        self._note("connect", self.source.address)
+        self._note("connect", self.where)
         self._enter("open")
+        if self.link.breaks:
+            self.told.emit("info", f"{self.where} is back.")
 
     def _not_opened(self, problem: Problem) -> None:
         now = time.perf_counter()
         if math.isnan(self._tried):
             self._tried = now
         if not self._transport.retries:
-            self.link.problem = problem
-            self._enter("failed")
+            self._say(problem, "failed")
             return
         waits = problem.kind == "denied" and now - self._tried < DENIED_GRACE_S
-        if self.link.phase == "opening" and not waits:
-            self.link.problem = problem
-            self._enter("lost")
-        self.stopping.wait(RETRY_S)
+        if (self.link.phase == "opening" and not waits) or self._explains(problem):
+            self._say(problem, "lost")
+        self._pause(problem)
+
+    def _say(self, problem: Problem, phase: str) -> None:
+        self.link.problem = problem
+        self.intake.note(time.perf_counter(), problem.sentence)
+        self._enter(phase)
+        self.told.emit("error", problem.sentence)
+
+    def _explains(self, problem: Problem) -> bool:
+        """Whether this tells more of why there is no link than what was said."""
+        said = self.link.problem
+        return said is not None and problem.kind != said.kind and (problem.cause or said.cause)
+
+    def _pause(self, problem: Problem) -> None:
+        """Between two attempts."""
+        pause_s = getattr(self._transport, "pause_s", None)
+        self.stopping.wait(pause_s(problem) if pause_s else RETRY_S)
 
     def _read(self) -> None:
         try:
@@ -143,13 +179,13 @@ class Reader(Worker):
         if self.link.phase == "ended" and not getattr(self._transport, "ended", True):
             self._enter("open")
 
-    def _take(self, data: bytes | Rows, now: float) -> None:
+    def _take(self, data: bytes | Arrivals | Rows, now: float) -> None:
         self.link.byte_t = now
         known = self.intake.format
         if self._new_tap is not self._tap and (self._new_tap is None or known):
             self._begin_tap()
-        if self._tap is not None and isinstance(data, bytes):
-            self._tap.raw.append((now, data))
+        if self._tap is not None:
+            self._keep(self._tap, data, now)
         if getattr(self._transport, "jumped", False):
             self._jump()
         rows = self.intake.feed(data, now)
@@ -157,8 +193,17 @@ class Reader(Worker):
             self._count_break(now)
             self.link.sample_t = now
             self._ring.push(rows)
+            self._fusion.wake()
         if self.intake.format != known:
             self.changed.emit()
+
+    @staticmethod
+    def _keep(tap: Tap, data: bytes | Arrivals | Rows, now: float) -> None:
+        """What can be decoded again is recorded as it came."""
+        if isinstance(data, bytes):
+            tap.raw.append((now, data))
+        elif isinstance(data, list):
+            tap.raw.extend(data)
 
     def _follow(self, recording: Recording | None) -> None:
         """A recording is replayed as it was fused, unless its filter cannot be set up here."""
@@ -198,11 +243,10 @@ class Reader(Worker):
         self._open = False
         self._transport.close()
         self._tried = math.nan
-        self.link.problem = problem
         self.link.breaks += 1
         self._note("lost", problem.sentence)
-        self._enter("lost")
-        self.stopping.wait(RETRY_S)
+        self._say(problem, "lost")
+        self._pause(problem)
 
     def _explain(self, error: BaseException, *, opening: bool) -> Problem:
         if self._transport.retries:

@@ -12,6 +12,7 @@ from imugui.fusion.pipeline import Pipeline
 from imugui.ring import Ring
 from imugui.workers.fusion_worker import FusionWorker
 from imugui.workers.reader import Reader
+from imugui.workers.recorded_profile import Calibrated
 from imugui.workers.recorder import Recorder, RecordingStatus, Tap
 
 
@@ -27,10 +28,10 @@ class RecordControl:
         """The recording that runs, or None."""
         return self._recorder.status() if self._recorder is not None else None
 
-    def start(self, folder: Path, reader: Reader, label: str, note: str) -> Recorder:
+    def start(self, folder: Path, reader: Reader, calibrated: Calibrated, label: str, note: str) -> Recorder:
         """Begin a recording in a new folder; raises OSError."""
         tap = Tap()
-        about = describe(reader, self._fusion.pipeline, label, note)
+        about = describe(reader, self._fusion.pipeline, label, note) | {"calibration": calibrated.noted()}
         recorder = Recorder(folder, about, self._samples, self._attitude, tap)
         self._recorder = recorder
         reader.record(tap)

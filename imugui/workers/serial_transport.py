@@ -54,6 +54,18 @@ def serial_number(device: str) -> str:
     return next((str(info.serial_number) for info in comports() if info.device == device and info.serial_number), "")
 
 
+UsbBoard = tuple[int, int, str]
+"""What tells one board from all others: kind of chip, and its serial number or, without one, the socket it is in."""
+
+
+def usb_boards() -> dict[str, UsbBoard]:
+    """The USB boards that can be told apart, by port."""
+    from serial.tools.list_ports import comports
+
+    found = ((info, info.serial_number or info.location) for info in comports() if info.vid is not None)
+    return {info.device: (info.vid, info.pid, str(mark)) for info, mark in found if mark}
+
+
 def _port(info: Any) -> Port:
     hint = KNOWN_CHIPS.get((info.vid, info.pid), "USB" if info.vid is not None else "")
     description = info.description if info.description not in (None, "n/a") else ""
@@ -68,18 +80,30 @@ class SerialTransport:
     def __init__(self, source: Source) -> None:
         self.address = source.address
         self.baud = source.baud
+        self.title = source.address  # what it is called now: a board may come back under another name
+        self._board: UsbBoard | None = None
         self._port: Any = None
         self._network = source.address.startswith(("socket://", "rfc2217://"))
 
     def open(self) -> None:
         from serial import serial_for_url
 
+        if not self._network:
+            self._look_for_it()
         timeout = NETWORK_TIMEOUT_S if self._network else READ_TIMEOUT_S
-        port = serial_for_url(self.address, do_not_open=True, timeout=timeout, baudrate=self.baud or 115200)
+        port = serial_for_url(self.title, do_not_open=True, timeout=timeout, baudrate=self.baud or 115200)
         with contextlib.suppress(AttributeError, ValueError, NotImplementedError):
             port.exclusive = True  # two programs on one port would each get half of the bytes
         port.open()
         self._port = port
+
+    def _look_for_it(self) -> None:
+        """Find the board again where it came back under another name, as /dev/ttyUSB1 instead of /dev/ttyUSB0."""
+        boards = usb_boards()
+        if self._board is None:
+            self._board = boards.get(self.address)
+        elif boards.get(self.title) != self._board:
+            self.title = next((device for device, board in boards.items() if board == self._board), self.address)
 
     def set_baud(self, baud: int) -> None:
         """Listen at another rate; raises one of PORT_ERRORS."""

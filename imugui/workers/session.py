@@ -11,28 +11,34 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import Signal, Slot
 
 from imugui.calibration.profile import Board, Profile
 from imugui.calibration.profile_store import ProfileStore
 from imugui.formats import Options
-from imugui.fusion import DEFAULT_FILTER, FILTERS
+from imugui.fusion import DEFAULT_FILTER
 from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
-from imugui.ring import Ring
-from imugui.samples import ATTITUDE, SAMPLE
+from imugui.fusion.quaternion import multiply
 from imugui.simulation.motions import MOTIONS
 from imugui.workers import TRANSPORTS
-from imugui.workers.board_profile import START_UP_S, BoardProfile
-from imugui.workers.fusion_worker import AgeCounts, FusionWorker
+from imugui.workers.ble_loop import Radio
+from imugui.workers.ble_scan import Scan, Sighting
+from imugui.workers.ble_transport import BleTransport
+from imugui.workers.board_profile import START_UP_S, BoardProfile, board_of
+from imugui.workers.fused import RING_ROWS, Fused
+from imugui.workers.guide_facts import guide_facts
 from imugui.workers.player import SPEEDS, Player
 from imugui.workers.reader import Reader
 from imugui.workers.record_control import RecordControl
 from imugui.workers.recorder import LOW_DISK, RecordingStatus, disk_words
+from imugui.workers.relative_facts import relative_facts
+from imugui.workers.relative_worker import RelativeStatus
 from imugui.workers.replay_transport import ReplayTransport
 from imugui.workers.serial_transport import Port, list_ports
 from imugui.workers.simulator_transport import SimulatorTransport
-from imugui.workers.status import Status, mag_trust
+from imugui.workers.snapshot import LOOK_ROWS, fitted_rate_hz, snapshot
+from imugui.workers.status import Status
 from imugui.workers.transport import Source
 from imugui.workers.verdict import Facts, State, Verdict, judge, oddity
 
@@ -44,25 +50,26 @@ __all__ = [
     "Player",
     "Port",
     "RecordingStatus",
+    "RelativeStatus",
+    "Scan",
     "Session",
+    "Sighting",
     "Source",
     "State",
     "Status",
 ]
 
-RING_ROWS = 1 << 17  # two minutes at 1 kHz
-LOOK_ROWS = 256  # newest rows that the status is judged by
+PATIENCE_S = 1.0  # how long the window waits for a port that is being opened to be left
 START_UP_ROWS = 6000  # newest rows in which a still span is looked for
 
 MOTION_TITLES = {name: motion.title for name, motion in MOTIONS.items()}
 """Motions of the virtual board, by name."""
 
 
-class Session(QObject):
+class Session(Fused):
     """One run of the program with its connection. All methods are called in the main thread."""
 
     state_changed = Signal(object)  # State
-    message = Signal(str, str)  # tone "info", "warn" or "error"; a sentence
 
     def __init__(
         self,
@@ -70,42 +77,42 @@ class Session(QObject):
         params: Any = None,
         use_mag: bool = True,
         profiles: ProfileStore | None = None,
+        radio: Radio | None = None,
     ) -> None:
-        """``profiles``: where boards' calibrations are kept; without it they live as long as the session."""
-        super().__init__()
+        """``profiles``: where boards' calibrations are kept; without it they live as long as the session.
+
+        ``radio``: Bluetooth, shared by all sessions of a program; its owner stops it.
+        """
+        super().__init__(filter_name, params, use_mag)
+        self.radio = radio or Radio()
+        self._own_radio = radio is None
         self._folder = None if profiles else tempfile.TemporaryDirectory(prefix="imugui-", ignore_cleanup_errors=True)
         self.profiles = profiles or ProfileStore(Path(self._folder.name if self._folder else ""))
         self._known: BoardProfile | None = None
         self._connected = 0.0
         self._watched = 0
-        self.samples = Ring(SAMPLE, RING_ROWS)
-        self.attitude = Ring(ATTITUDE, RING_ROWS)
-        name = filter_name if filter_name in FILTERS else DEFAULT_FILTER
-        self._fusion = FusionWorker(self.samples, self.attitude, Pipeline(name, params, use_mag=use_mag))
-        self._fusion.failed.connect(self._defect)
         self._reader: Reader | None = None
         self._transport: Any = None
         self._record = RecordControl(self.samples, self.attitude, self._fusion)
+        self._reference: Session | None = None
+        self._beside: list[Session] = []
         self._origin: tuple[float, ...] | None = None
         self._zeroed: bool | None = None  # what the user did last about the origin; None: a recording may have one
         self._first_row = 0
         self._last_state = State.IDLE
+        self._leaving: list[Reader] = []  # told to stop while their port was being opened, which cannot be hurried
 
     # connection
 
     def connect_to(self, source: Source) -> None:
         """Leave the present source and read this one; problems come as a state and in words, never as exceptions."""
         self.disconnect_source()
-        self._transport = TRANSPORTS[source.transport](source)
+        self._transport = TRANSPORTS[source.transport](source, self.radio)
         self._first_row = self.samples.count
         self.reset_ages()
         self._fusion.missed_rows = 0
         self._origin, self._zeroed = None, None
-        self._known = BoardProfile(self.profiles, source)
-        for warning in self._known.load():
-            self.message.emit("warn", warning)
-        self._connected, self._watched = time.perf_counter(), self.attitude.count
-        self._use(self._known.correction(math.nan), carry_on=False)
+        self._know(source)
         self._reader = Reader(source, self._transport, self.samples, self._fusion)
         if isinstance(self._transport, ReplayTransport):
             self._transport.room = self._room
@@ -121,19 +128,26 @@ class Session(QObject):
         """Stop reading, and end a recording; the rings keep what was received."""
         self.stop_recording()
         if self._reader is not None:
-            if isinstance(self._transport, ReplayTransport):
+            if isinstance(self._transport, ReplayTransport | BleTransport):
                 self._transport.cancel()
             reader, self._reader, self._transport = self._reader, None, None
-            reader.changed.disconnect(self._link_changed)
-            reader.stop()
+            for signal in (reader.changed, reader.told, reader.failed):
+                signal.disconnect()
+            if not reader.stop(PATIENCE_S):
+                self._leaving.append(reader)
             self._known = None
         self._announce()
 
     def close(self) -> None:
-        """Stop every thread."""
+        """Stop every thread, and those of the sessions beside this one."""
+        for session in self._beside:
+            session.close()
         self.disconnect_source()
-        if self._fusion.isRunning():
-            self._fusion.stop()
+        for reader in self._leaving:
+            reader.stop()
+        self._stop_threads()
+        if self._own_radio:
+            self.radio.stop()
         if self._folder is not None:
             self._folder.cleanup()
 
@@ -160,43 +174,48 @@ class Session(QObject):
     def turn_board(self, dx_rad: float, dy_rad: float, viewer: NDArray[np.float64]) -> None:
         """Turn the virtual board as a mouse drags it: right by dx, down by dy, rad.
 
-        ``viewer`` (4,) is the rotation from the viewer's axes (x right, y up, z to the eye) to the earth's.
+        ``viewer`` (4,) is the rotation from the viewer's axes (x right, y up, z to the eye) to those of ``shown``.
         """
         hand = self._transport.hand if isinstance(self._transport, SimulatorTransport) else None
         if hand is not None:
-            hand.viewer = viewer
+            hand.viewer = viewer if self.relative is None else multiply(self.relative.to_earth, viewer)
             hand.turn(dx_rad, dy_rad)
 
-    # fusion
+    # a second board
+
+    def beside(self) -> Session:
+        """A session for another board: with the same filter, profiles and Bluetooth."""
+        session = Session(self.filter_name, self.filter_params, self.use_mag, self.profiles, self.radio)
+        self._beside.append(session)
+        return session
 
     @property
-    def filter_name(self) -> str:
-        return self._fusion.pipeline.filter_name
+    def reference(self) -> Session | None:
+        """The board in whose frame this one is looked at, or None."""
+        return self._reference
 
-    @property
-    def filter_params(self) -> Any:
-        return self._fusion.pipeline.params
+    def measure_against(self, reference: Session | None) -> None:
+        """Look at this board in the frame of another one from now on: ``shown``, origin and guidance. None: no more."""
+        self._unrelate()
+        self._reference = reference
+        if reference is not None:
+            self._relate(reference)
 
-    @property
-    def use_mag(self) -> bool:
-        return self._fusion.pipeline.use_mag
-
-    @property
-    def fusion_settings(self) -> dict[str, Any]:
-        """All that was chosen for the fusion, as plain values: filter, parameters, correction, magnetometer, origin."""
-        return self._fusion.pipeline.settings()
-
-    def set_filter(self, name: str, params: Any = None, use_mag: bool = True) -> None:
-        """Replace the pipeline whole; the new filter starts from the last attitude and keeps the origin."""
-        old = self._fusion.pipeline
-        self._fusion.replace(Pipeline(name, params, old.correction, use_mag), carry_on=True)
+    # origin
 
     @property
     def has_origin(self) -> bool:
+        if self.relative is not None:
+            return self.relative.has_origin
         return self._fusion.has_origin if self._zeroed is None else self._zeroed
 
     def set_origin(self) -> bool:
-        """Make the newest attitude the origin; False when there is none."""
+        """Make the newest attitude the origin; False when there is none.
+
+        Against a reference board: that the two are held the same way round now, so that their headings are equal.
+        """
+        if self.relative is not None:
+            return self.relative.align()
         newest = self.attitude.last(1)
         if len(newest) == 0 or self.status().state is not State.STREAMING:
             return False
@@ -206,22 +225,12 @@ class Session(QObject):
         return True
 
     def clear_origin(self) -> None:
-        """Show attitudes in the earth's axes again."""
+        """Show attitudes in the earth's axes again; against a reference board: forget how the two were held."""
+        if self.relative is not None:
+            self.relative.clear()
+            return
         self._origin, self._zeroed = None, False
         self._fusion.set_origin(None)
-
-    @property
-    def mag_updates(self) -> int:
-        """New magnetometer measurements that reached the filter since it was set."""
-        return self._fusion.pipeline.mag_updates
-
-    def age_quantiles(self) -> dict[str, float]:
-        """{"p50", "p95", "p99"} of arrival of bytes to attitude published, ms."""
-        return self._fusion.ages.quantiles()
-
-    def reset_ages(self) -> None:
-        """Count ages anew."""
-        self._fusion.ages = AgeCounts()
 
     # calibration
 
@@ -256,9 +265,18 @@ class Session(QObject):
         self._use(self._known.correction(float(newest["temp_c"][0]) if len(newest) else math.nan), carry_on=False)
         return True
 
+    def _know(self, source: Source) -> None:
+        """Use the profile of the board behind a source."""
+        self._known = BoardProfile(self.profiles, source)
+        for warning in self._known.load():
+            self.message.emit("warn", warning)
+        self._connected, self._watched = time.perf_counter(), self.attitude.count
+        self._use(self._known.correction(math.nan), carry_on=False)
+
     def _use(self, correction: Correction, carry_on: bool) -> None:
         """Fuse with this correction from now on; not ``carry_on``: from the accelerometer and field, anew."""
-        pipeline = Pipeline(self.filter_name, self.filter_params, correction, self.use_mag, self._origin)
+        chosen = self.filter_name, self.filter_params, correction, self.use_mag
+        pipeline = Pipeline(*chosen, self._origin, self.spike_mask)
         self._fusion.replace(pipeline, carry_on)
 
     def _look_after(self, now: float) -> None:
@@ -278,14 +296,14 @@ class Session(QObject):
 
     def record(self, folder: Path, label: str = "", note: str = "") -> bool:
         """Begin a recording in a new folder; False, and a message, when the disk refuses or nothing is connected."""
-        if self._reader is None:
+        if self._reader is None or self._known is None:
             self.message.emit("warn", "Connect a board first: there is nothing to record.")
             return False
         if self.recording is not None:
             self.message.emit("warn", "A recording runs already.")
             return False
         try:
-            recorder = self._record.start(folder, self._reader, label, note)
+            recorder = self._record.start(folder, self._reader, self._known.calibrated, label, note)
         except OSError as error:
             self.message.emit("error", disk_words(error, folder))
             return False
@@ -306,6 +324,14 @@ class Session(QObject):
         """Note a marker in the recording at this moment; False when there is none."""
         return self._record.mark(text)
 
+    def guide_facts(self) -> dict[str, Any]:
+        """What guidance must know of the stream and the calibration to trust an attitude: see workers.guide_facts."""
+        state = self._verdict(time.perf_counter()).state
+        own = guide_facts(self._fusion, self._known, self.samples, state is State.STREAMING)
+        if self.relative is None or self._reference is None:
+            return own
+        return relative_facts(own, self._reference.guide_facts(), self.relative)
+
     @property
     def player(self) -> Player | None:
         """Play, pause, seek and speed, while a file is the source."""
@@ -319,43 +345,14 @@ class Session(QObject):
         verdict = self._verdict(now)
         self._note(verdict.state)
         self._look_after(now)
-        reader, known = self._reader, self._known
-        if reader is None or known is None:
+        if self._reader is None or self._known is None:
             return Status(verdict.state, verdict.sentence, filter=self.filter_name)
-        fused = self.attitude.last(min(LOOK_ROWS, self.attitude.count))
-        trust, norm = mag_trust(fused, self.use_mag, known.has_mag, known.light)
-        counts, clock = reader.intake.counts, reader.intake.clock
-        newest = self.samples.last(1)
-        return Status(
-            state=verdict.state,
-            sentence=verdict.sentence,
-            source=reader.source.address,
-            format=reader.intake.format,
-            seen=reader.intake.seen,
-            baud=reader.intake.baud,
-            rate_hz=self.rate_hz if verdict.state in (State.STREAMING, State.IMPOSSIBLE) else 0.0,
-            jitter_ms=clock.jitter_s * 1e3,
-            messages=counts.messages,
-            bad_messages=counts.bad_messages,
-            samples=self.samples.count - self._first_row,
-            gaps=clock.gaps,
-            gap_s=clock.gap_s,
-            missed_rows=self._fusion.missed_rows,
-            age_ms=(now - float(newest["t_arrival"][0])) * 1e3 if len(newest) else math.nan,
-            has_mag=trust != "none",
-            mag_trust=trust,
-            mag_alarm=known.light,
-            profile=known.words,
-            mag_norm_ut=norm,
-            temp_c=float(newest["temp_c"][0]) if len(newest) else math.nan,
-            filter=self.filter_name,
-        )
+        return snapshot(now, verdict, self._reader, self._known, self._fusion, self._first_row)
 
     @property
     def rate_hz(self) -> float:
         """Samples a second as fitted over the connection (0.1 % after 10 s), in the board's own time; 0 if unknown."""
-        period = self._reader.intake.clock.period if self._reader else math.nan
-        return 1.0 / period if period > 0.0 else 0.0
+        return fitted_rate_hz(self._reader) if self._reader else 0.0
 
     def _verdict(self, now: float) -> Verdict:
         reader = self._reader
@@ -372,23 +369,19 @@ class Session(QObject):
 
     @Slot()
     def _link_changed(self) -> None:
-        if self._reader is None:
+        if self._reader is None or self._known is None:
             return
-        link = self._reader.link
-        if link.phase in ("lost", "failed") and link.problem is not None:
-            self.message.emit("error", link.problem.sentence)
-        elif link.phase == "open" and link.breaks:
-            self.message.emit("info", f"{self._reader.source.address} is back.")
+        found = board_of(self._reader.found)
+        # it was called by a name and has an address, or has come; one that is gone still is the board it was
+        gone = found.transport == "serial" and found.address == self._reader.source.address
+        if self._known.board.key != found.key and not gone:
+            self._know(self._reader.found)
         self._announce()
 
     @Slot(str)
     def _disk_failed(self, text: str) -> None:
         self.message.emit("error", text)
         self.stop_recording()
-
-    @Slot(str)
-    def _defect(self, text: str) -> None:
-        self.message.emit("error", f"A defect in imugui: {text}. Data keep coming in; please report it.")
 
     def _announce(self) -> None:
         self._note(self._verdict(time.perf_counter()).state)

@@ -12,7 +12,7 @@ from imugui.simulation.errors import PRESETS
 from imugui.simulation.hand import HandTurned
 from imugui.simulation.pacing import Pacer
 from imugui.simulation.wire import Wire, real_board
-from imugui.workers.transport import Source
+from imugui.workers.transport import Arrivals, Source
 
 HAND = "hand"
 RATE_HZ = 200.0
@@ -47,13 +47,17 @@ class SimulatorTransport:
         self.hand = path if isinstance(path, HandTurned) else None
         self._pacer = Pacer(self._board.rate_hz, time.perf_counter())
 
-    def read(self) -> bytes | Rows:
+    def read(self) -> bytes | Arrivals | Rows:
         wait = self._pacer.wait_s(time.perf_counter())
         self._wake.wait(min(max(wait, SHORTEST_WAIT_S), LONGEST_WAIT_S))
-        n = self._pacer.due(time.perf_counter())
+        now = time.perf_counter()
+        n = self._pacer.due(now)
         if n == 0:
             return b""
-        return self._wire.take(n) if self._wire else self._board.rows(n)
+        if self._wire is None:
+            return self._board.rows(n)
+        messages = self._wire.messages(n)
+        return [(now, message) for message in messages] if self._wire.form.framed else b"".join(messages)
 
     def close(self) -> None:
         """Nothing is held."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +38,24 @@ class Status:
     temp_c: float = math.nan
     profile: str = ""
     filter: str = ""
+    board: str = ""  # what a wireless board tells of itself: maker, model, firmware
+    battery_percent: float = math.nan
+    rssi_dbm: float = math.nan  # of the newest advertisement: a link's own signal is not told by most systems
+    overflow: int = 0  # messages that came faster than they could be taken in
+
+
+def board_facts(transport: Any) -> dict[str, Any]:
+    """What a transport knows of a wireless board, under the names of Status; empty for others."""
+    facts = getattr(transport, "facts", None)
+    if facts is None:
+        return {}
+    about = " ".join(facts.about.values())
+    return {
+        "board": about,
+        "battery_percent": facts.battery_percent,
+        "rssi_dbm": facts.rssi_dbm,
+        "overflow": facts.overflow,
+    }
 
 
 def mag_trust(rows: Rows, use_mag: bool, calibrated: bool, alarm: str = "off") -> tuple[str, float]:

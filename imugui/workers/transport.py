@@ -10,13 +10,16 @@ from imugui.samples import Rows
 
 NO_OPTIONS = Options()
 
+Arrivals = list[tuple[float, bytes]]
+"""Messages that came one by one: (host time of arrival s, bytes), oldest first."""
+
 
 @dataclass(frozen=True)
 class Source:
     """Where samples come from, as the user chose it."""
 
     transport: str  # a key of TRANSPORTS
-    address: str  # a port or pyserial URL, a file, or a motion of the virtual board
+    address: str  # a port or pyserial URL, a file, a motion of the virtual board, or a Bluetooth name or address
     format: str = "auto"  # a key of FORMATS, or "auto"
     baud: int = 0  # 0: find it
     options: Options = NO_OPTIONS
@@ -28,7 +31,7 @@ class Source:
 
 
 class Transport(Protocol):
-    """Reads block for 0.1 s at the most, and give bytes (to be decoded) or finished rows."""
+    """Reads block for 0.1 s at the most, and give bytes, messages with their own times, or finished rows."""
 
     retries: bool  # True: a port that fails is tried again; False: the failure is final
     baud: int  # 0 where there is none
@@ -36,8 +39,8 @@ class Transport(Protocol):
     def open(self) -> None:
         """Open; raises one of PORT_ERRORS."""
 
-    def read(self) -> bytes | Rows:
-        """What came since, b"" when nothing did; raises one of PORT_ERRORS, EOFError at the end of a file."""
+    def read(self) -> bytes | Arrivals | Rows:
+        """What came since, empty when nothing did; raises one of PORT_ERRORS, EOFError at the end of a file."""
 
     def close(self) -> None:
         """Close; never raises."""

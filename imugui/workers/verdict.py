@@ -36,6 +36,9 @@ class State(enum.Enum):
     MISSING = ("No port", "bad")
     BUSY = ("Port busy", "bad")
     DENIED = ("No permission", "bad")
+    AWAY = ("Board not found", "bad")
+    TAKEN = ("Board in use", "bad")
+    NO_BLUETOOTH = ("No Bluetooth", "bad")
     LOST = ("Connection lost", "bad")
     ENDED = ("Recording ended", "neutral")
     FAILED = ("Cannot open", "bad")
@@ -77,6 +80,7 @@ class Facts:
     odd: str = ""  # what makes the values impossible
     missing_s: float = 0.0  # time lost by earlier breaks of the connection
     breaks: int = 0
+    wireless: bool = False
 
 
 def judge(facts: Facts) -> Verdict:
@@ -103,7 +107,14 @@ def _lost(facts: Facts) -> Verdict:
     return Verdict(state, facts.problem)
 
 
-_NOT_OPENED = {"missing": State.MISSING, "busy": State.BUSY, "denied": State.DENIED}
+_NOT_OPENED = {
+    "missing": State.MISSING,
+    "busy": State.BUSY,
+    "denied": State.DENIED,
+    **dict.fromkeys(("away", "dropped", "refused", "lost", "silent"), State.AWAY),
+    **dict.fromkeys(("elsewhere", "ours"), State.TAKEN),
+    **dict.fromkeys(("off", "no_adapter", "classic", "no_bus", "no_service", "stuck"), State.NO_BLUETOOTH),
+}
 
 
 def _ended(facts: Facts) -> Verdict:
@@ -126,6 +137,8 @@ def _open(facts: Facts) -> Verdict:
 
 
 def _no_bytes(facts: Facts, waited: float) -> Verdict:
+    if facts.wireless:
+        return _no_notification(facts, waited)
     if waited < BOOT_S:
         return Verdict(
             State.WAITING, f"{facts.where} is open; waiting for the first byte (boards that restart need 2 s)."
@@ -134,6 +147,15 @@ def _no_bytes(facts: Facts, waited: float) -> Verdict:
         State.SILENT,
         f"{facts.where} is open, but the board sends nothing. Press its reset button; check that its sketch is running "
         "and that this is the right port.",
+    )
+
+
+def _no_notification(facts: Facts, waited: float) -> Verdict:
+    if waited < BOOT_S:
+        return Verdict(State.WAITING, f"{facts.where} is connected; waiting for its first message.")
+    return Verdict(
+        State.SILENT,
+        f"{facts.where} is connected, but sends nothing. Press its button, or switch it off and on.",
     )
 
 
@@ -160,7 +182,8 @@ def _stalled(facts: Facts, quiet: float) -> Verdict:
             f"Bytes arrive, but no message for {quiet:.0f} s: {facts.findings}. Was the board's sketch or rate changed?"
         )
     else:
-        text = f"{facts.where} has sent nothing for {quiet:.0f} s. Press the board's reset button or check the cable."
+        advice = "Bring it closer" if facts.wireless else "Press the board's reset button or check the cable"
+        text = f"{facts.where} has sent nothing for {quiet:.0f} s. {advice}."
     return Verdict(State.STALLED, text)
 
 
@@ -193,4 +216,23 @@ def oddity(rows: Rows) -> str:
     frozen = not np.ptp(acc, axis=0).any() and not np.ptp(rows["gyr"], axis=0).any()
     if frozen and turning > 0.2:
         return "Every value stands still although the gyroscope says the board turns. Press the board's reset button."
+    return _saturation(rows)
+
+
+RANGE_ENDS = {
+    "gyr": ("gyroscope", "turn it more slowly", np.radians([250.0, 500.0, 1000.0, 2000.0])),
+    "acc": ("accelerometer", "do not knock it", GRAVITY * np.array([4.0, 8.0, 16.0])),
+}
+"""Where a sensor's range may end, in SI, and what to do about it; 2 g is left out, hands reach it."""
+SATURATED_ROWS = 5
+
+
+def _saturation(rows: Rows) -> str:
+    """Which sensor is at the end of its range, in words: an axis that often reads exactly the same largest value."""
+    for name, (sensor, advice, ends) in RANGE_ENDS.items():
+        for values in np.abs(rows[name]).T:
+            top = float(np.nanmax(values, initial=0.0))
+            at_an_end = bool((np.abs(top / ends - 1.0) < 0.005).any())
+            if at_an_end and int((values == top).sum()) >= SATURATED_ROWS:
+                return f"The {sensor} is at the end of its range: what is faster or stronger is lost, so {advice}."
     return ""

@@ -17,8 +17,11 @@ from imugui.recording import Event, Recording, UnreadableError, raw, read_record
 from imugui.recording.folder import RAW
 from imugui.samples import SAMPLE, Rows
 from imugui.workers.changes import CHANGES, start_of
+from imugui.workers.verify_game import GameCheck, verify_games
+from imugui.workers.verify_guidance import GuidanceCheck, verify_guidance
 
 CUT_AT_MOST = 50  # samples at the start of which some bytes lie before the recording
+NO_GUIDANCE, NO_GAMES = GuidanceCheck(), GameCheck()
 COMPARED = ("t", "gyr", "acc", "mag", "temp_c", "status", "lat", "lon", "alt", "speed", "course_deg")
 
 
@@ -33,6 +36,8 @@ class Verification:
     attitude_difference_deg: float
     recorded_by: str
     warnings: tuple[str, ...]
+    guidance: GuidanceCheck = NO_GUIDANCE
+    games: GameCheck = NO_GAMES
 
     @property
     def sentence(self) -> str:
@@ -41,7 +46,7 @@ class Verification:
         text += f"largest difference {self.attitude_difference_deg:.3g} deg"
         if self.recorded_by != f"imugui {__version__}":
             text += f" (recorded by {self.recorded_by})"
-        return " ".join((text, *self.warnings))
+        return " ".join(filter(None, (f"{text}.", self.guidance.sentence, self.games.sentence, *self.warnings)))
 
 
 def verify(path: Path) -> Verification:
@@ -57,7 +62,17 @@ def verify(path: Path) -> Verification:
     fused = fuse_again(samples, start, recording.events)
     attitudes, angle = compare_attitudes(fused, recording.attitude)
     made_by = str(recording.about.get("made_by", "an unknown version"))
-    return Verification(len(samples), attitudes, raw_samples, difference, angle, made_by, recording.warnings)
+    return Verification(
+        len(samples),
+        attitudes,
+        raw_samples,
+        difference,
+        angle,
+        made_by,
+        recording.warnings,
+        verify_guidance(recording.events, fused["quat"]),
+        verify_games(recording.events, fused),
+    )
 
 
 def _start(recording: Recording) -> Event:

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
+from logging.handlers import RotatingFileHandler
 
 from PySide6.QtCore import QThread, Signal
 
 _LOG = logging.getLogger(__name__)
+
+
+def log_file() -> str:
+    """Where the program writes its log; "" when it writes none."""
+    handlers = logging.getLogger().handlers
+    return next((handler.baseFilename for handler in handlers if isinstance(handler, RotatingFileHandler)), "")
 
 
 class Worker(QThread):
@@ -42,7 +50,7 @@ class Worker(QThread):
                 self.stopping.wait(0.1)
         self.finish()
 
-    def stop(self) -> None:
-        """End the loop and wait until the thread is gone."""
+    def stop(self, patience_s: float = math.inf) -> bool:
+        """End the loop and wait until the thread is gone, for so long at the most; whether it is."""
         self.stopping.set()
-        self.wait()
+        return self.wait() if math.isinf(patience_s) else self.wait(round(1e3 * patience_s))

@@ -138,6 +138,14 @@ def test_a_gap_ends_a_still_span(make_rows: Callable[..., Rows]) -> None:
     assert spans[0].stop == spans[1].start == 300
 
 
+def test_a_few_samples_around_a_long_gap_are_too_short() -> None:
+    rows = VirtualBoard("turns", 100.0, PRESETS["mpu9250"], 1).rows(40)
+    rows["t"][20:] += 30.0
+    found = auto_bias(rows)
+    assert not found.accepted
+    assert "s came so far" in found.reason
+
+
 def test_the_resolution_is_the_smallest_step() -> None:
     counts = np.random.default_rng(0).integers(-50, 50, size=(500, 3))
     assert resolution(counts * 0.01 * GRAVITY) == pytest.approx(0.01 * GRAVITY)
