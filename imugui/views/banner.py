@@ -81,6 +81,11 @@ class Banner(QFrame):
         if self._leave.isActive():
             self._leave.start(OFFER_STAYS_MS)
 
+    def let_go(self) -> None:
+        """Take away news that nobody is offered a choice on: something worse is said elsewhere."""
+        if self._tone == "neutral" and self.offers.count() == 0:
+            self.dismiss()
+
     @Slot()
     def dismiss(self) -> None:
         """Take the message away."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import Signal, Slot
+from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QFileDialog, QFrame, QHBoxLayout, QVBoxLayout
 
 from imugui.formats import FORMATS
+from imugui.views.ble_search import BleSearch
 from imugui.views.boards import bare_lines, identity, keep_options, kept_options
 from imugui.views.controls import Button, StillBox
 from imugui.views.file_columns import FileColumns
@@ -21,6 +22,8 @@ from imugui.workers.session import Options, Port, Session, Source, State, Status
 
 AUTO = "auto"
 BAUDS = (9600, 19200, 38400, 57600, 115200, 230400, 250000, 460800, 500000, 921600, 1_000_000, 2_000_000)
+FORMAT_TIP = "How the board writes its data; auto finds it within 6 s"
+FORMAT_OF_SERVICE = "A Bluetooth board tells its format by its service"
 UNCONNECTED = (State.IDLE, State.ENDED, State.FAILED)
 FILE_KINDS = "Recordings (*.csv *.txt *.log *.bin);;All files (*)"
 
@@ -29,23 +32,30 @@ class ConnectionBar(QFrame):
     """Choosing and connecting; while connected, another choice takes effect at once."""
 
     columns_wanted = Signal()
+    board_wanted = Signal()  # a second board beside this one
     assumed = Signal(str, str)  # tone and sentence: what is assumed of the columns of the file that is opened
 
-    def __init__(self, session: Session, settings_store: SettingsStore) -> None:
+    def __init__(self, session: Session, settings_store: SettingsStore, keeps: bool = True) -> None:
+        """``keeps``: what is chosen here is remembered for the next time."""
         super().__init__()
+        self._keeps = keeps
         self.setProperty("role", "bar")
         self.setAccessibleName("Connection")
         self._session = session
         self._settings_store = settings_store
         self.files = FileColumns(settings_store)
         self._asking = False  # a person is asked for the columns before the file is opened
-        self.source = SourceBox()
+        self.search = BleSearch(session, self)
+        self.source = SourceBox(self.search)
         self.format = _format_box()
         self.baud = _baud_box()
         self.button = Button("Connect", "Start or stop the connection", "toggle_connection", "connect", role="primary")
         self.verdict = VerdictRow()
         self.tools = FusionTools(session, settings_store)
         self.recording = RecordLine(session)
+        words = "Connect a second board beside this one, for instance as the reference of a tool"
+        self.add_button = Button("Add a board", words, role="quiet", small=True)
+        self.add_button.clicked.connect(self.board_wanted)
         self._restore()
         self._lay_out()
         self.source.picked.connect(self._changed)
@@ -64,10 +74,16 @@ class ConnectionBar(QFrame):
         self.button.set_icon("disconnect" if connected else "open" if asks else "connect")
         self.button.set_role("" if connected else "primary")
         self.baud.setVisible(choice.transport == "serial")
+        self._show_format(choice.transport == "ble")
         source = self._session.source
         self.verdict.refresh(status, plays_table=source is not None and source.transport == "replay")
         self.tools.refresh(status)
         self.recording.refresh()
+
+    def _show_format(self, wireless: bool) -> None:
+        """A Bluetooth board tells its format by its service: there is nothing to choose."""
+        self.format.setEnabled(not wireless)
+        self.format.setToolTip(FORMAT_OF_SERVICE if wireless else FORMAT_TIP)
 
     @Slot(list)
     def show_ports(self, ports: list[Port]) -> None:
@@ -134,7 +150,8 @@ class ConnectionBar(QFrame):
         """The source as it is chosen here, with what is remembered of the board."""
         choice = self.source.choice()
         baud = self.baud.currentData() if choice.transport == "serial" else 0
-        return Source(choice.transport, choice.address, self.format.currentData(), baud, self.options())
+        format_ = AUTO if choice.transport == "ble" else self.format.currentData()
+        return Source(choice.transport, choice.address, format_, baud, self.options())
 
     def options(self) -> Options:
         """What the user once said of the chosen board."""
@@ -172,23 +189,29 @@ class ConnectionBar(QFrame):
         if source is None or self.source.isEditable() or self.source.choice().key == (source.transport, source.address):
             return
         self.source.choose_source(source.transport, source.address)
-        self.format.choose(source.format)
+        if source.transport != "ble":
+            self.format.choose(source.format)
         if source.transport == "serial":
             self.baud.choose(source.baud)
 
     def _remember(self) -> None:
+        if not self._keeps:
+            return
         choice = self.source.choice()
         self._settings_store.update(
             transport=choice.transport,
             address=choice.address,
+            source_name=choice.name,
             format=self.format.currentData(),
             baud=self.baud.currentData(),
         )
 
     def _restore(self) -> None:
+        if not self._keeps:
+            return
         kept = self._settings_store.settings
-        if kept.transport in ("serial", "replay", "simulator") and kept.address:
-            self.source.choose_source(kept.transport, kept.address)
+        if kept.transport in ("serial", "replay", "simulator", "ble") and kept.address:
+            self.source.choose_source(kept.transport, kept.address, kept.source_name)
         self.format.choose(kept.format)
         self.baud.choose(kept.baud)
 
@@ -210,11 +233,12 @@ class ConnectionBar(QFrame):
         second.setSpacing(12)
         second.addWidget(self.verdict, 1)
         second.addWidget(self.recording)
+        second.addWidget(self.add_button, 0, Qt.AlignmentFlag.AlignTop)
         column.addLayout(second)
 
 
 def _format_box() -> StillBox:
-    box = StillBox("Format", "How the board writes its data; auto finds it within 6 s")
+    box = StillBox("Format", FORMAT_TIP)
     box.add("Auto format", AUTO)
     for name, format_ in FORMATS.items():
         box.add(format_.title, name, short=name, words=format_.hint)

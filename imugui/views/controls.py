@@ -19,6 +19,7 @@ from imugui.views.shortcuts import tip
 
 ENTRY_HEIGHT = 25
 """Of an entry in an open list, px."""
+ICON_GAP = 12
 
 
 class Button(QPushButton):
@@ -81,8 +82,11 @@ class StillBox(QComboBox):
 
     def add(self, text: str, data: object, short: str = "", words: str = "") -> None:
         """Add an entry; ``words`` is its tooltip."""
-        self.addItem(text, data)
-        row = self.count() - 1
+        self.insert(self.count(), text, data, short, words)
+
+    def insert(self, row: int, text: str, data: object, short: str = "", words: str = "") -> None:
+        """Add an entry at a row."""
+        self.insertItem(row, text, data)
         self.setItemData(row, QSize(0, ENTRY_HEIGHT), Qt.ItemDataRole.SizeHintRole)
         self.setItemData(row, short or None, self.SHORT)
         self.setItemData(row, words or None, Qt.ItemDataRole.ToolTipRole)
@@ -94,10 +98,14 @@ class StillBox(QComboBox):
             self.setCurrentIndex(row)
 
     def showPopup(self) -> None:
-        texts = (self.itemText(row) for row in range(self.count()))
-        widest = max((self.fontMetrics().horizontalAdvance(text) for text in texts), default=0)
+        widest = max(map(self._room_for, range(self.count())), default=0)
         self.view().setMinimumWidth(widest + 32)
         super().showPopup()
+
+    def _room_for(self, row: int) -> int:
+        """Width of an entry, pixels."""
+        icon = 0 if self.itemIcon(row).isNull() else self.iconSize().width() + ICON_GAP
+        return icon + max(map(self.fontMetrics().horizontalAdvance, self.itemText(row).split("\n")))
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         event.ignore()

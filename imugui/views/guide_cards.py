@@ -20,6 +20,7 @@ from imugui.views.polar_words import clock
 from imugui.views.readout import Readout, number_text
 from imugui.views.side_picture import SidePicture
 
+HALF_PROOF = "Measured against the reference: one board's recording cannot give it again."
 NO_PROOF = "Nothing is recorded, so it cannot be computed again: press R to record."
 
 
@@ -171,5 +172,5 @@ class CaptureCard(Card):
 
     def show_reading(self, reading: Reading, recorded: bool) -> None:
         """A reading was taken."""
-        proof = "" if recorded else f" {NO_PROOF}"
-        self.show_result("good" if recorded else "warn", f"Taken: {reading_words(reading)}.{proof}")
+        proof = HALF_PROOF if reading.relative else "" if recorded else NO_PROOF
+        self.show_result("warn" if proof else "good", f"Taken: {reading_words(reading)}. {proof}".strip())

@@ -22,6 +22,8 @@ FILE_NAME = "guidance.json"
 SAVE_DELAY_MS = 400  # while a plan is typed the file is written once
 SINCE = "since the registration"
 """In every reason why a registration is not good any more."""
+ANOTHER_FRAME = "The tool is now measured in another frame, so the registration was removed. Register again."
+ALIGNED = "The two boards were aligned anew, so the registration was removed. Register again."
 MOVED = "The origin was moved, so the registration by it was removed. Register again."
 
 
@@ -38,13 +40,15 @@ class GuideDesk(QObject):
         self.guide = Guide()
         self.rows: Rows = empty_rows(ATTITUDE, 0)
         """The attitudes that were new at the last ``pull``, and the number of the first."""
-        self.first = session.attitude.count
+        self.first = session.shown.count
         self.pressed = False
         """The board's button went down within them."""
         self.problems: list[str] = []
         self._session, self._path = session, path
-        self._count = session.attitude.count
-        self._epoch = self._seen_epoch = -1
+        self._ring = session.shown
+        self._count = self._ring.count
+        self._epoch: object = -1
+        self._seen_epoch: object = -1
         self._button = -1
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
@@ -56,7 +60,9 @@ class GuideDesk(QObject):
 
     def pull(self) -> Look:
         """Take what is new, and see where the tool points now."""
-        self.rows, self._count, _ = self._session.attitude.since(self._count)
+        if self._session.shown is not self._ring:
+            self._change_frame()
+        self.rows, self._count, _ = self._ring.since(self._count)
         self.first = self._count - len(self.rows)
         self._watch_button(self.rows["status"])
         values = self._session.guide_facts()
@@ -85,7 +91,7 @@ class GuideDesk(QObject):
 
     def use_magnetometer(self, on: bool) -> None:
         """Have the heading follow the field, or not: it must be so before the registration."""
-        if self._session.use_mag != on:
+        if self._session.relative is None and self._session.use_mag != on:
             self._session.set_filter(self._session.filter_name, self._session.filter_params, on)
 
     def set_axis(self, axis: Vector, quality_deg: float) -> None:
@@ -110,10 +116,10 @@ class GuideDesk(QObject):
 
     def origin_moved(self) -> None:
         """The user has set the origin by hand: a registration by it stands on another one."""
-        registration = self.guide.registration
-        if registration is not None and registration.method == "origin":
+        registration, against = self.guide.registration, self._session.relative is not None
+        if registration is not None and (against or registration.method == "origin"):
             self.remove_registration()
-            self.said.emit("warn", MOVED)
+            self.said.emit("warn", ALIGNED if against else MOVED)
 
     @Slot(str)
     def confirm_side(self, side: str) -> None:
@@ -149,9 +155,17 @@ class GuideDesk(QObject):
 
     # inside
 
+    def _change_frame(self) -> None:
+        """From the earth to a reference board, or back: the attitudes are others, and a registration is none there."""
+        self._ring = self._session.shown
+        self._count = self._ring.count
+        if self.guide.registration is not None:
+            self.remove_registration()
+            self.said.emit("warn", ANOTHER_FRAME)
+
     def _note(self, text: str, data: dict[str, object], number: int | None = None) -> None:
-        """Keep the change, and note it in the recording."""
-        self._session.note("guidance", text, plain(data), number)
+        """Keep the change, and note it in the recording; numbers of relative attitudes are none of the board's own."""
+        self._session.note("guidance", text, plain(data), number if self._session.relative is None else None)
         self.flush()
 
     def _watch_button(self, status: np.ndarray) -> None:

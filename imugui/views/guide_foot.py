@@ -14,6 +14,7 @@ from imugui.workers.session import Session, Status
 
 NOT_MEDICAL = "Research tool, not a medical device"
 NOTHING = "Nothing is recorded"
+AGAINST = "One board's recording does not prove readings against the reference."
 WHY = "Without a recording no reading can be computed again."
 
 
@@ -49,8 +50,9 @@ class GuideFoot(QFrame):
             self.why.show_line("")
         elif running is None:
             self.state.show_phrase("warn", NOTHING)
-            self.why.show_line(WHY)
+            self.why.show_line(WHY if self._session.relative is None else AGAINST)
         else:
             self.state.show_phrase("good", f"Recording {elapsed_words(running.elapsed_s)}")
-            self.why.show_line(f"Readings are kept in {running.path.name}.")
+            kept = f"Readings are kept in {running.path.name}."
+            self.why.show_line(kept if self._session.relative is None else AGAINST)
         self.button.setVisible(running is None and not nothing)

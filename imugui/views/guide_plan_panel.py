@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from imugui.guidance.plan import CONVENTION, Plan
-from imugui.guidance.plan_file import LARGEST, read_plans, write_plans
+from imugui.guidance.plan_file import load_plans, write_plans
 from imugui.views import theme
 from imugui.views.controls import Button
 from imugui.views.guide_parts import Card, Complaint, column_of, dress_table, row_of
@@ -88,9 +88,7 @@ class PlanPanel(QWidget):
     def import_file(self, path: Path) -> None:
         """Put the plans of a CSV file behind those there are; every line that is wrong is named."""
         try:
-            if path.stat().st_size > 4 * LARGEST:
-                raise OSError("it is too long for a table of plans")
-            plans, wrong = read_plans(_text(path.read_bytes()))
+            plans, wrong = load_plans(path)
         except OSError as error:
             self._tell([f"{path.name} cannot be read: {error.strerror or error}."])
             return
@@ -196,11 +194,3 @@ class PlanPanel(QWidget):
         row.setSpacing(0)
         row.addLayout(left, 1)
         row.addWidget(column)
-
-
-def _text(raw: bytes) -> str:
-    """The text of a file, in UTF-8 or, failing that, in what old spreadsheets write."""
-    try:
-        return raw.decode("utf-8")
-    except UnicodeDecodeError:
-        return raw.decode("cp1252", errors="replace")

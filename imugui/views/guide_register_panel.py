@@ -20,6 +20,7 @@ from imugui.workers.session import Session, State
 HOLD = "Hold it still…"
 NONE = "Not registered: there is no guidance."
 GONE = "From an earlier run, so no zero any more: register again."
+NO_NORTH = "In the frame of a reference board the headings of both count: see there whether they are aligned"
 MAG_WORDS = "Off: the heading drifts a little, and no iron disturbs it. On: the heading follows the magnetic field."
 
 
@@ -111,8 +112,22 @@ class RegisterPanel(QWidget):
         """Follow scheme and session."""
         self.stage.slow_refresh()
         self.stage.scene.show_tool(self._axis)
+        self._follow_frame(self.stage.session.relative is not None)
 
     # inside
+
+    def _follow_frame(self, against: bool) -> None:
+        """In a reference board's frame there is neither a vertical nor a north."""
+        if self.mag.isEnabled() is not against:
+            return
+        self.mag.setEnabled(not against)
+        self.mag.setToolTip(NO_NORTH if against else MAG_WORDS)
+        row = self.method.findData("mark")
+        if against:
+            self.method.removeItem(row)
+        elif row < 0:
+            self.method.insert(1, WAYS["mark"].title, "mark")
+        self._restart()
 
     @property
     def _way(self) -> Way:

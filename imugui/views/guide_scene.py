@@ -14,6 +14,7 @@ from imugui.fusion.quaternion import from_matrix
 from imugui.views import theme
 from imugui.views.hand_scene import HandScene
 from imugui.views.live_words import stale_word
+from imugui.views.relative_words import stale_relative
 from imugui.workers.session import Session, State
 
 DOTS = 46
@@ -27,7 +28,7 @@ _KEYS = {
 
 
 class GuideScene(HandScene):
-    """Shows attitudes against the earth; without a fresh one it is greyed."""
+    """Shows attitudes against the earth, or a reference board; without a fresh one it is greyed."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -50,11 +51,14 @@ class GuideScene(HandScene):
 
     def refresh(self, state: State) -> None:
         """Turn the board."""
-        rows = self._session.attitude.last(1)
+        rows = self._session.shown.last(1)
         player = self._session.player
         paused = player is not None and not player.playing and not player.ended
         age_s = time.perf_counter() - float(rows["t_arrival"][0]) if len(rows) else math.nan
-        self.set_dimmed(None if paused and len(rows) else stale_word(state, age_s) or None)
+        relative = self._session.relative
+        word = stale_relative(relative.status(), len(rows)) if relative is not None else stale_word(state, age_s)
+        self.set_dimmed(None if paused and len(rows) else word or None)
+        self.set_north(self._session.relative is None)
         if len(rows):
             self.set_quat(rows["quat"][0])
 

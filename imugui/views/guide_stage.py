@@ -17,7 +17,7 @@ class Stage(QWidget):
 
     def __init__(self, session: Session) -> None:
         super().__init__()
-        self._session = session
+        self.session = session
         self.sentence = QLabel()
         self.sentence.setFont(theme.font("heading"))
         self.sentence.setWordWrap(True)
@@ -50,4 +50,4 @@ class Stage(QWidget):
     def slow_refresh(self) -> None:
         """Follow the session."""
         self.scene.slow_refresh()
-        self.hint.setVisible(self._session.hand_turned)
+        self.hint.setVisible(self.session.hand_turned)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal, Slot
+from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from imugui.guidance.reading import Reading, Vector
@@ -63,7 +63,7 @@ class GuideView(View):
         self.tool.feed(self.desk.rows)
         self.register_panel.feed(self.desk.rows, self.desk.first)
         if self.step == "aim":
-            self.aim.refresh(look, self.session.attitude.count)
+            self.aim.refresh(look, self.session.shown.count)
         elif self.step in ("tool", "register"):
             (self.tool if self.step == "tool" else self.register_panel).refresh(self._state)
 
@@ -174,7 +174,7 @@ class GuideView(View):
     @Slot(object)
     def _registered(self, registration: Registration) -> None:
         self.desk.register(registration)
-        if registration.method == "origin":
+        if registration.method == "origin" and self.session.relative is None:
             self.session.set_origin()
         if registration.warning:
             self.said.emit("warn", registration.warning)

@@ -20,6 +20,7 @@ from imugui.views.hand_scene import HandScene
 from imugui.views.heading_panel import HeadingPanel
 from imugui.views.labels import ElidedLabel, muted
 from imugui.views.live_words import origin_words, stale_word
+from imugui.views.relative_words import IN_FRAME, stale_relative
 from imugui.views.settings_store import SettingsStore
 from imugui.views.view import View
 from imugui.workers.session import Port, Session, State
@@ -68,7 +69,7 @@ class LiveView(View):
         self.slow_refresh()
 
     def refresh(self) -> None:
-        rows = self.session.attitude.last(1)
+        rows = self.session.shown.last(1)
         word = self._stale_word(rows)
         self.scene.set_dimmed(word or None)
         if word:
@@ -80,12 +81,13 @@ class LiveView(View):
     def slow_refresh(self) -> None:
         status = self.session.status()
         self._state = status.state
-        rows = self.session.attitude.last(1)
+        rows = self.session.shown.last(1)
         alive = len(rows) > 0 and not self._stale_word(rows)
         if alive:
             self.heading.show_flags(status, bool(rows["rest"][0]))
         self._stack.setCurrentIndex(0 if status.state is State.IDLE and not alive else 1)
         self.filter.refresh()
+        self.heading.setVisible(self.session.relative is None)
         self._follow_display()
         self._follow_hand()
         self._tell_origin()
@@ -124,6 +126,9 @@ class LiveView(View):
 
     def _stale_word(self, rows: Rows) -> str:
         """Why the picture is not live, in words; a paused replay shows where it stands."""
+        relative = self.session.relative
+        if relative is not None and (word := stale_relative(relative.status(), len(rows))):
+            return word
         player = self.session.player
         if player is not None and len(rows) and not player.playing and not player.ended:
             return ""
@@ -133,10 +138,11 @@ class LiveView(View):
     def _show(self, rows: Rows) -> None:
         local = rows["local"][0]
         self.scene.set_quat(local)
-        if self._ghost is not None:  # relative to the same origin
+        against = self.session.relative is not None
+        if self._ghost is not None and not against:  # relative to the same origin
             self.scene.set_ghost(multiply(multiply(local, conjugate(rows["quat"][0])), self._ghost))
-        self.scene.set_north(not self.session.has_origin)
-        self.angles.show_attitude(local, self.session.has_origin)
+        self.scene.set_north(not (self.session.has_origin or against))
+        self.angles.show_attitude(local, self.session.has_origin or against)
         self.heading.show_heading(float(heading_deg(rows["quat"][0])))
 
     def _follow_display(self) -> None:
@@ -154,11 +160,13 @@ class LiveView(View):
                 self.scene.setFocus(Qt.FocusReason.MouseFocusReason)
 
     def _tell_origin(self) -> None:
-        if not self.session.has_origin:
+        if self.session.relative is not None:
+            self.origin.setText(IN_FRAME)
+        elif not self.session.has_origin:
             self._origin_t = math.nan
             self.origin.clear()
-            return
-        self.origin.setText(origin_words(time.perf_counter() - self._origin_t).capitalize())
+        else:
+            self.origin.setText(origin_words(time.perf_counter() - self._origin_t).capitalize())
 
     @Slot(bool)
     def _filter_unfolded(self, on: bool) -> None:

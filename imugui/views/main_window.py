@@ -19,62 +19,39 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
-    QApplication,
     QHBoxLayout,
     QLineEdit,
-    QMainWindow,
-    QStackedWidget,
     QVBoxLayout,
     QWidget,
 )
 
 from imugui.formats.layout import TableError
-from imugui.views import VIEWS, theme
-from imugui.views.banner import Banner
-from imugui.views.column_asking import dialog_for_board, dialog_for_file
-from imugui.views.compare_window import CompareWindow
-from imugui.views.connection_bar import ConnectionBar
-from imugui.views.link_log import LinkLogWindow
-from imugui.views.navigation import Navigation
-from imugui.views.port_watch import PortWatch
-from imugui.views.record_control import RecordControl, show_in_folder
+from imugui.views import PAGES
+from imugui.views.board_desk import BoardDesk
+from imugui.views.boards_window import FIRST_PAGE, BoardsWindow
+from imugui.views.record_control import show_in_folder
 from imugui.views.record_words import ended_words
-from imugui.views.replay_bar import ReplayBar
+from imugui.views.relative_words import aligned_words
 from imugui.views.settings_store import SettingsStore
 from imugui.views.shortcuts import KEYS, spare_key
-from imugui.views.status_line import StatusLine
-from imugui.views.view import View
-from imugui.workers.session import Port, RecordingStatus, Session, State
+from imugui.workers.session import RecordingStatus, Session
 
 FRAME_MS = 16
 SLOW_MS = 125
 SIZE = (1280, 800)
 SMALLEST = (960, 600)
-FIRST_PAGE = "live"
+NO_ORIGIN = "The origin needs live data: connect a board first."
+NO_ALIGNMENT = "Aligning needs live data of both boards: connect the tool and the reference first."
 
 
-class MainWindow(QMainWindow):
+class MainWindow(BoardsWindow):
     """Everything on screen. Data are pulled by the timers; only rare events come as signals."""
 
     def __init__(self, session: Session, settings_store: SettingsStore) -> None:
-        super().__init__()
-        self.session = session
-        self.settings_store = settings_store
-        self._theme = ""
-        self._take_settings()
-        self.pages: dict[str, View] = {name: view(session, settings_store) for name, view in VIEWS.items()}
-        self.navigation = Navigation(VIEWS)
-        self.bar = ConnectionBar(session, settings_store)
-        self.recorder = RecordControl(session)
-        self.banner = Banner()
-        self.replay = ReplayBar(session)
-        self.compare = CompareWindow(session, settings_store, self)
-        self.status_line = StatusLine()
-        self.link_log = LinkLogWindow(session, self)
-        self.stack = QStackedWidget()
-        self.ports = PortWatch(session)
+        super().__init__(session, settings_store)
         self._lay_out()
-        self._connect_parts()
+        settings_store.failed.connect(self._save_failed)
+        settings_store.changed.connect(self._take_settings)
         self._make_shortcuts()
         self.frames = self._timer(FRAME_MS, self.refresh, Qt.TimerType.PreciseTimer)
         self.slow = self._timer(SLOW_MS, self.slow_refresh, Qt.TimerType.CoarseTimer)
@@ -82,45 +59,6 @@ class MainWindow(QMainWindow):
         self._restore_geometry()
         for problem in settings_store.problems:
             self.show_message("warn", problem)
-
-    # pages
-
-    @Slot(str)
-    def show_page(self, name: str) -> None:
-        """Bring a page to the front, up to date."""
-        self.stack.setCurrentWidget(self.pages[name])
-        self.navigation.select(name)
-        self.slow_refresh()
-        self.refresh()
-
-    def page(self) -> View:
-        """The page in front."""
-        page = self.stack.currentWidget()
-        assert isinstance(page, View)  # noqa: S101
-        return page
-
-    @Slot()
-    def refresh(self) -> None:
-        """Paint the page in front."""
-        self.page().refresh()
-        self.replay.refresh()
-        self.compare.refresh()
-
-    @Slot()
-    def slow_refresh(self) -> None:
-        """Bring texts and controls up to date."""
-        status = self.session.status()
-        if status.state is State.OPENING:
-            self.ports.paused.set()
-        else:
-            self.ports.paused.clear()
-        self.recorder.refresh()
-        self.bar.refresh(status)
-        self.replay.slow_refresh()
-        self.compare.slow_refresh()
-        self.status_line.refresh(status)
-        self.link_log.refresh(status)
-        self.page().slow_refresh()
 
     # what the keys and buttons do
 
@@ -137,9 +75,14 @@ class MainWindow(QMainWindow):
     @Slot()
     def set_origin(self) -> None:
         """Make the present attitude zero."""
+        against = self.session.relative
         if not self.session.set_origin():
-            self.show_message("warn", "The origin needs live data: connect a board first.")
+            self.show_message("warn", NO_ORIGIN if against is None else NO_ALIGNMENT)
             return
+        if against is not None:
+            tone, words = aligned_words(against.status())
+            if words:
+                self.show_message(tone, words)
         for page in self.pages.values():
             page.origin_moved()
         self.slow_refresh()
@@ -148,6 +91,9 @@ class MainWindow(QMainWindow):
     def clear_origin(self) -> None:
         """Back to the earth's axes."""
         self.session.clear_origin()
+        if self.session.relative is not None:
+            for page in self.pages.values():
+                page.origin_moved()
         self.slow_refresh()
 
     @Slot()
@@ -199,6 +145,8 @@ class MainWindow(QMainWindow):
     @Slot()
     def name_columns(self) -> None:
         """Let the user say what the columns of this board, or of this file, mean."""
+        from imugui.views.column_asking import dialog_for_board, dialog_for_file  # start-up time
+
         choice = self.bar.source.choice()
         try:
             if choice.transport == "replay":
@@ -222,6 +170,7 @@ class MainWindow(QMainWindow):
     def show_message(self, tone: str, text: str) -> None:
         """Say something, unless the verdict says it already: tone "info", "warn" or "error"."""
         if text == self.session.status().sentence:
+            self.banner.let_go()
             return
         self.banner.show_message(tone, text)
 
@@ -243,14 +192,9 @@ class MainWindow(QMainWindow):
         self.slow.stop()
         self.settings_store.update(window=bytes(self.saveGeometry().toBase64().data()).decode("ascii"))
         self.settings_store.flush()
-        self.link_log.close()
         self.ports.stop()
-        self.compare.close()
-        self.compare.stop()
-        self.replay.stop()
-        for page in self.pages.values():
-            page.stop()
-        self.session.close()
+        self.hide()  # a port that is being opened may keep the program for some seconds, but not the window
+        self.stop_boards()
         super().closeEvent(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -278,16 +222,14 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         self.setMinimumSize(*SMALLEST)
         self.resize(*SIZE)
-        for page in self.pages.values():
-            self.stack.addWidget(page)
         right = QVBoxLayout()
         right.setContentsMargins(0, 0, 0, 0)
         right.setSpacing(0)
-        for widget in (self.bar, self.banner):
-            right.addWidget(widget)
+        right.addWidget(self.strip)
+        right.addLayout(self.bars)
+        right.addWidget(self.banner)
         right.addWidget(self.stack, 1)
-        right.addWidget(self.replay)
-        right.addWidget(self.status_line)
+        right.addLayout(self.feet)
         middle = QWidget()
         row = QHBoxLayout(middle)
         row.setContentsMargins(0, 0, 0, 0)
@@ -297,37 +239,25 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(middle)
         self.bar.button.setFocus()
 
-    def _connect_parts(self) -> None:
-        self.session.message.connect(self.show_message)
-        self.session.state_changed.connect(self.slow_refresh)
-        self.settings_store.failed.connect(self._save_failed)
-        self.settings_store.changed.connect(self._take_settings)
-        self.navigation.chosen.connect(self.show_page)
-        self.status_line.clicked.connect(self.show_link_log)
-        self.bar.verdict.log_wanted.connect(self.show_link_log)
-        self.bar.columns_wanted.connect(self.name_columns)
-        self.bar.assumed.connect(self._say_assumed)
-        self.bar.tools.origin_wanted.connect(self.set_origin)
-        self.bar.tools.clear_wanted.connect(self.clear_origin)
-        self.bar.tools.record.button.clicked.connect(self.toggle_recording)
-        self.recorder.ended.connect(self.show_recorded)
-        self.recorder.marked.connect(self.bar.recording.show_marker)
-        self.recorder.said.connect(self.show_message)
-        self.replay.appeared.connect(self._give_keys_to_replay)
-        self.replay.compare_wanted.connect(self.show_compare)
-        self.compare.sought.connect(self.replay.seek)
-        self.ports.found.connect(self._ports_found)
-        for page in self.pages.values():
-            page.wanted.connect(self.bar.connect_to)
-            page.said.connect(self.show_message)
-            page.record_wanted.connect(self.toggle_recording)
-            self.compare.ghost.connect(page.show_ghost)
+    def connect_desk(self, desk: BoardDesk) -> None:
+        desk.said.connect(self.show_message)
+        desk.record_wanted.connect(self.toggle_recording)
+        desk.status_line.clicked.connect(self.show_link_log)
+        desk.bar.verdict.log_wanted.connect(self.show_link_log)
+        desk.bar.columns_wanted.connect(self.name_columns)
+        desk.bar.assumed.connect(self._say_assumed)
+        desk.bar.tools.origin_wanted.connect(self.set_origin)
+        desk.bar.tools.clear_wanted.connect(self.clear_origin)
+        desk.bar.tools.record.button.clicked.connect(self.toggle_recording)
+        desk.recorder.ended.connect(self.show_recorded)
+        desk.replay.appeared.connect(self._give_keys_to_replay)
+        desk.replay.compare_wanted.connect(self.show_compare)
 
     def _make_shortcuts(self) -> None:
         for key in (key for key in KEYS if not key.spare):
             slot = self._on_page(key.action) if key.page else getattr(self, key.action)
             QShortcut(QKeySequence(key.keys), self).activated.connect(slot)
-        for number, name in enumerate(self.pages, 1):
+        for number, name in enumerate(PAGES, 1):
             QShortcut(QKeySequence(str(number)), self).activated.connect(lambda name=name: self.show_page(name))
 
     def _on_page(self, action: str) -> Callable[[], None]:
@@ -353,21 +283,6 @@ class MainWindow(QMainWindow):
         """Space plays and pauses from now on: it must not disconnect what was connected with it."""
         if not isinstance(self.focusWidget(), (QLineEdit, QAbstractSpinBox)):
             self.replay.timeline.setFocus()
-
-    @Slot(list)
-    def _ports_found(self, ports: list[Port]) -> None:
-        self.bar.show_ports(ports)
-        for page in self.pages.values():
-            page.show_ports(ports)
-
-    @Slot()
-    def _take_settings(self) -> None:
-        """The colours act at once; pages read the other settings when they refresh."""
-        scheme = self.settings_store.settings.theme
-        app = QApplication.instance()
-        if scheme != self._theme and isinstance(app, QApplication):
-            self._theme = scheme
-            theme.apply(app, scheme)
 
     @Slot(str)
     def _save_failed(self, text: str) -> None:

@@ -13,7 +13,18 @@ from imugui import paths
 from imugui.views.record_words import free_words, is_low, recording_path
 from imugui.workers.session import RecordingStatus, Session, State, Status
 
-NOTHING_TO_RECORD = (State.IDLE, State.OPENING, State.MISSING, State.BUSY, State.DENIED, State.ENDED, State.FAILED)
+NOTHING_TO_RECORD = (
+    State.IDLE,
+    State.OPENING,
+    State.MISSING,
+    State.BUSY,
+    State.DENIED,
+    State.AWAY,
+    State.TAKEN,
+    State.NO_BLUETOOTH,
+    State.ENDED,
+    State.FAILED,
+)
 
 
 class RecordControl(QObject):

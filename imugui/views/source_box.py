@@ -2,70 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from pathlib import Path
+import textwrap
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QKeyEvent, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QComboBox, QLineEdit
 
 from imugui.views import theme
+from imugui.views.ble_search import BleSearch
 from imugui.views.controls import ENTRY_HEIGHT, StillBox
+from imugui.views.signal_bars import bars_icon
+from imugui.views.source_choices import (
+    BLUETOOTH,
+    OPEN_FILE,
+    TYPE_ADDRESS,
+    Choice,
+    Note,
+    bare_choice,
+    bluetooth,
+    names_of,
+    sections,
+)
 from imugui.workers.session import MOTION_TITLES, Port
 
+__all__ = ["OPEN_FILE", "TYPE_ADDRESS", "Choice", "SourceBox"]
+
 HEADING_HEIGHT = 28
+NOTE_LINE = 17  # px
+NOTE_COLUMNS = 64  # letters in a line of a note
 REMEMBERED = 4  # files and typed addresses
-
-
-@dataclass(frozen=True)
-class Choice:
-    """An entry of the list. An empty address means: ask the user for it."""
-
-    transport: str
-    address: str
-    text: str  # in the list
-    tip: str = ""
-    short: str = ""  # in the closed box, where that differs
-
-    @property
-    def key(self) -> tuple[str, str]:
-        """What tells two choices apart."""
-        return self.transport, self.address
-
-
-TYPE_ADDRESS = Choice("serial", "", "Type a port address…", "A port by name, or any address that pyserial opens")
-OPEN_FILE = Choice("replay", "", "Open a recording…", "A capture of a board's bytes, or a CSV file with samples")
-Sections = list[tuple[str, list[Choice]]]
-
-
-def port_choice(port: Port) -> Choice:
-    """A serial port with what is known of the board behind it."""
-    about = port.hint or port.description
-    return Choice("serial", port.device, f"{port.device}  ({about})" if about else port.device, port.description)
-
-
-def _motion_choice(name: str, title: str) -> Choice:
-    return Choice("simulator", name, title, "A virtual board in this computer", f"Simulated: {title.lower()}")
-
-
-def bare_choice(transport: str, address: str) -> Choice:
-    """A choice the lists do not hold: a typed address, a port that is gone, a file."""
-    if transport == "replay":
-        name = Path(address).name
-        return Choice(transport, address, name, address, f"Recording: {name}")
-    return Choice(transport, address, address, address)
-
-
-def sections(ports: list[Port], extra: list[Choice]) -> Sections:
-    """The whole list: simulated motions, serial ports, recordings; ``extra`` choices join the section of their kind."""
-    known = {port.device for port in ports}
-    typed = [one for one in extra if one.transport == "serial" and one.address not in known]
-    files = [one for one in extra if one.transport == "replay"]
-    return [
-        ("SIMULATED BOARD", [_motion_choice(name, title) for name, title in MOTION_TITLES.items()]),
-        ("SERIAL PORT", [*map(port_choice, ports), *typed, TYPE_ADDRESS]),
-        ("RECORDING", [*files, OPEN_FILE]),
-    ]
+LAST = "RECORDING"
+PLACE = Qt.ItemDataRole.UserRole + 2
+"""Which section an item is of."""
 
 
 class SourceBox(StillBox):
@@ -73,8 +41,11 @@ class SourceBox(StillBox):
 
     picked = Signal()  # the user has chosen an entry, or typed an address
 
-    def __init__(self) -> None:
+    def __init__(self, search: BleSearch | None = None) -> None:
+        """``search``: looks for Bluetooth boards; None where there are none to choose."""
         super().__init__("Source", "Where the data come from. Serial ports appear by themselves")
+        self._search = search
+        self._show_all = False
         self.setMaxVisibleItems(24)
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(11)
@@ -85,16 +56,19 @@ class SourceBox(StillBox):
         self._late = False
         self._fill()
         self.activated.connect(self._picked)
+        if search is not None:
+            search.changed.connect(self._boards_changed)
 
     def choice(self) -> Choice:
         """What is chosen."""
         return self._chosen
 
-    def choose_source(self, transport: str, address: str) -> None:
-        """Choose an entry; one that the list does not hold joins it."""
+    def choose_source(self, transport: str, address: str, name: str = "") -> None:
+        """Choose an entry; one that the list does not hold joins it, a Bluetooth board with its name."""
         self._end_typing()
         known = {one.key: one for one in self.choices()}
-        self._chosen = known.get((transport, address)) or bare_choice(transport, address)
+        name = name or names_of(self._search).get(address, "")
+        self._chosen = known.get((transport, address)) or bare_choice(transport, address, name)
         if address and self._chosen.key not in known:
             self._extra = [self._chosen, *self._extra][:REMEMBERED]
         self._fill()
@@ -114,9 +88,22 @@ class SourceBox(StillBox):
         """Every entry, without the headings."""
         return [data for row in range(self.count()) if isinstance(data := self.itemData(row), Choice)]
 
+    def showPopup(self) -> None:
+        """While the list is open Bluetooth boards are looked for, once somebody has asked for them."""
+        if self._search is not None and (self._search.used or self._chosen.transport == "ble"):
+            self._search.start()
+        super().showPopup()
+
     def hidePopup(self) -> None:
         super().hidePopup()
-        if self._late and not self.isEditable():
+        if self._search is not None and self._search.running:
+            self._search.stop()
+            self._late = True
+        QTimer.singleShot(0, self, self._catch_up)  # what was clicked is looked up in the list as it was
+
+    @Slot()
+    def _catch_up(self) -> None:
+        if self._late and not self.isEditable() and not self.view().isVisible():
             self._fill()
 
     def changeEvent(self, event: QEvent) -> None:
@@ -138,8 +125,64 @@ class SourceBox(StillBox):
         if data == TYPE_ADDRESS:
             self._begin_typing()
             return
+        if data.action:
+            self._ask_bluetooth(data.action)
+            return
         self._chosen = data
         self.picked.emit()
+
+    def _ask_bluetooth(self, action: str) -> None:
+        """Search, or show more of what was found, and open the list again."""
+        self._show_all ^= action == "show_all"
+        if self._search is not None:
+            self._search.used = True
+        QTimer.singleShot(0, self, self._show_boards)
+
+    @Slot()
+    def _show_boards(self) -> None:
+        self._fill()
+        self.showPopup()
+        heading = self.findText(BLUETOOTH)
+        self.view().scrollTo(self.model().index(heading, 0), self.view().ScrollHint.PositionAtTop)
+
+    @Slot()
+    def _boards_changed(self) -> None:
+        """Renew the Bluetooth section, also of an open list: what stands in it keeps its place."""
+        model = self.model()
+        if self._search is None or self.isEditable() or not isinstance(model, QStandardItemModel):
+            return
+        fresh = self._bluetooth_items(self._search)
+        old = [row for row in range(model.rowCount()) if model.item(row).data(PLACE) == BLUETOOTH]
+        self.blockSignals(True)
+        for row, item in zip(old, fresh, strict=False):
+            model.setItem(row, item)
+        for row, item in enumerate(fresh[len(old) :], old[-1] + 1):
+            model.insertRow(row, item)
+        model.removeRows(old[0] + len(fresh), max(0, len(old) - len(fresh)))
+        self.setCurrentIndex(self._row_of(self._chosen))
+        self.blockSignals(False)
+        if self.view().isVisible() and len(fresh) != len(old):
+            self._fit_list()
+
+    def _fit_list(self) -> None:
+        """An open list grows with what was found, as far as the screen goes."""
+        place = self.view().verticalScrollBar().value()
+        super().showPopup()
+        self.view().verticalScrollBar().setValue(place)
+
+    def _bluetooth_items(self, search: BleSearch) -> list[QStandardItem]:
+        items = [_heading(BLUETOOTH)]
+        for one in bluetooth(search, self._remembered(), self._show_all):
+            items.append(_note(one) if isinstance(one, Note) else _entry(one))
+        for item in items:
+            item.setData(BLUETOOTH, PLACE)
+        return items
+
+    def _remembered(self) -> list[Choice]:
+        """Choices beside those that were found: unplugged, a board is still the one that the user wants."""
+        known = {one.key for one in self._extra}
+        wanted = [self._chosen] if self._chosen.address and self._chosen.key not in known else []
+        return [*wanted, *self._extra]
 
     def _begin_typing(self) -> None:
         edit = QLineEdit()
@@ -172,11 +215,11 @@ class SourceBox(StillBox):
 
     def _fill(self) -> None:
         self._late = False
-        extra = list(self._extra)
-        if self._chosen.address and self._chosen.key not in {one.key for one in extra}:
-            extra.insert(0, self._chosen)  # unplugged it is still the one that the user wants
         model = QStandardItemModel(self)
-        for title, choices in sections(self._ports, extra):
+        for title, choices in sections(self._ports, self._remembered()):
+            if title == LAST and self._search is not None:
+                for item in self._bluetooth_items(self._search):
+                    model.appendRow(item)
             model.appendRow(_heading(title))
             for choice in choices:
                 model.appendRow(_entry(choice))
@@ -209,4 +252,17 @@ def _entry(choice: Choice) -> QStandardItem:
     item.setData(choice, Qt.ItemDataRole.UserRole)
     item.setData(choice.short or None, StillBox.SHORT)
     item.setToolTip(choice.tip)
+    if choice.bars >= 0:
+        item.setIcon(bars_icon(choice.bars))
+    return item
+
+
+def _note(note: Note) -> QStandardItem:
+    lines = textwrap.wrap(f"{theme.tone_glyph(note.tone)} {note.text}", NOTE_COLUMNS)
+    item = QStandardItem("\n".join(lines))
+    item.setFlags(Qt.ItemFlag.NoItemFlags)
+    item.setFont(theme.font("small"))
+    item.setForeground(theme.palette().text if note.tone != "neutral" else theme.palette().muted)
+    item.setSizeHint(QSize(0, ENTRY_HEIGHT + NOTE_LINE * (len(lines) - 1)))
+    item.setToolTip(note.text)
     return item

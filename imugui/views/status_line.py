@@ -13,10 +13,11 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout
 from imugui.views import theme
 from imugui.views.controls import Button
 from imugui.views.labels import ToneLabel
-from imugui.views.status_words import PARTS
+from imugui.views.status_words import PARTS, SPARE, Phrase
 from imugui.workers.session import Status
 
 HEIGHT = 34
+LEFT, RIGHT = 16, 8
 _GAP = 20
 _WORST_OF = 8  # slow refreshes: one second
 
@@ -35,7 +36,7 @@ class StatusLine(QFrame):
         self._ages: deque[float] = deque(maxlen=_WORST_OF)
         self.labels = {name: ToneLabel(part.widest) for name, part in PARTS.items()}
         row = QHBoxLayout(self)
-        row.setContentsMargins(16, 0, 8, 0)
+        row.setContentsMargins(LEFT, 0, RIGHT, 0)
         row.setSpacing(_GAP)
         for name, label in self.labels.items():
             label.setToolTip(PARTS[name].tip)
@@ -52,12 +53,25 @@ class StatusLine(QFrame):
         """Show a snapshot; to be called 8 times a second."""
         self._ages.append(status.age_ms)
         shown = dataclasses.replace(status, age_ms=self._worst_age())
-        for name, part in PARTS.items():
-            phrase = part.phrase(shown)
-            label = self.labels[name]
-            label.show_phrase(phrase.tone, phrase.text)
-            label.setVisible(bool(phrase.text))
-            label.setAccessibleDescription(phrase.text)
+        phrases = {name: part.phrase(shown) for name, part in PARTS.items()}
+        for name, phrase in phrases.items():
+            self.labels[name].show_phrase(phrase.tone, phrase.text)
+            self.labels[name].setAccessibleDescription(phrase.text)
+        self._make_room(phrases)
+
+    def _make_room(self, phrases: dict[str, Phrase]) -> None:
+        """Show what there is; in a narrow window the least important calm words go first, for words must not be cut."""
+        shown = {name for name, phrase in phrases.items() if phrase.text}
+        for name in SPARE:
+            if sum(self.labels[one].sizeHint().width() + _GAP for one in shown) <= self._room():
+                break
+            if phrases[name].tone == "neutral":
+                shown.discard(name)
+        for name, label in self.labels.items():
+            label.setVisible(name in shown)
+
+    def _room(self) -> int:
+        return self.width() - LEFT - RIGHT - self.button.sizeHint().width()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Thin lines between the places."""

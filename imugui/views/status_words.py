@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from imugui.fusion import FILTERS
+from imugui.views.ble_words import EMPTY_PERCENT, LOW_PERCENT, WEAK_DBM, signal_words
 from imugui.workers.session import Status
 
 NO_NUMBER = "---"
@@ -39,6 +40,7 @@ def rate(status: Status) -> Phrase:
 def gaps(status: Status) -> Phrase:
     """How often samples were missing, and for how long in total."""
     lost = f", {status.missed_rows} rows missed" if status.missed_rows else ""
+    lost += f", {status.overflow} messages dropped" if status.overflow else ""
     if not status.gaps:
         return Phrase("no gaps" + lost, "bad" if lost else "neutral")
     count = "1 gap" if status.gaps == 1 else f"{status.gaps} gaps"
@@ -86,6 +88,29 @@ def temperature(status: Status) -> Phrase:
     return Phrase("" if math.isnan(status.temp_c) else f"{status.temp_c:.1f} °C")
 
 
+def signal(status: Status) -> Phrase:
+    """How strongly a wireless board was heard last."""
+    if math.isnan(status.rssi_dbm):
+        return Phrase("")
+    return Phrase(signal_words(status.rssi_dbm), "warn" if status.rssi_dbm < WEAK_DBM else "neutral")
+
+
+def battery(status: Status) -> Phrase:
+    """How full the battery of a wireless board is."""
+    percent = status.battery_percent
+    if math.isnan(percent):
+        return Phrase("")
+    word, tone = next((word, tone) for least, word, tone in _BATTERY if percent > least)
+    return Phrase(f"battery {word} {percent:.0f} %".replace("  ", " "), tone)
+
+
+_BATTERY = (
+    (LOW_PERCENT, "", "neutral"),
+    (EMPTY_PERCENT, "low", "warn"),
+    (-math.inf, "nearly empty", "bad"),
+)
+
+
 def filter_title(status: Status) -> Phrase:
     """The filter in use."""
     known = FILTERS.get(status.filter)
@@ -100,9 +125,14 @@ PARTS: dict[str, Part] = {
     "mag": Part(magnetometer, "▲ field disturbed 88 µT", "Trust in the magnetometer, and the strength of the field"),
     "profile": Part(profile, "no profile", "Calibration profile in use"),
     "temperature": Part(temperature, "", "Temperature of the sensor"),
+    "signal": Part(signal, "", "Strength of the Bluetooth signal when the board was last found, before it connected"),
+    "battery": Part(battery, "", "Battery of the board"),
     "filter": Part(filter_title, "", "Filter in use"),
 }
 """Places of the status line, left to right."""
+
+SPARE = ("filter", "temperature", "profile", "bad", "mag", "signal")
+"""Those that give way in a narrow window while they are calm, the first first; the filter stands in the bar, too."""
 
 
 def span(seconds: float) -> str:

@@ -64,7 +64,19 @@ def test_an_open_list_is_not_changed_under_the_pointer(box: SourceBox, qtbot: Qt
     box.show_ports([ACM])
     assert ACM.device not in addresses(box, "serial")
     box.hidePopup()
-    assert ACM.device in addresses(box, "serial")
+    qtbot.waitUntil(lambda: ACM.device in addresses(box, "serial"))
+
+
+def test_what_is_clicked_is_chosen_though_the_list_is_renewed(box: SourceBox, qtbot: QtBot) -> None:
+    box.show_ports([USB])
+    box.showPopup()
+    qtbot.waitUntil(box.view().isVisible)
+    box.show_ports([ACM, USB])
+    index = box.model().index(box.findText(USB.device, Qt.MatchFlag.MatchStartsWith), 0)
+    qtbot.mouseClick(box.view().viewport(), Qt.MouseButton.LeftButton, pos=box.view().visualRect(index).center())
+    assert box.choice().address == USB.device
+    qtbot.waitUntil(lambda: addresses(box, "serial") == [ACM.device, USB.device, ""])
+    assert box.currentData().address == USB.device
 
 
 def test_an_address_is_typed(box: SourceBox, qtbot: QtBot) -> None:

@@ -66,3 +66,20 @@ def test_a_click_opens_the_log(line: StatusLine, qtbot: QtBot) -> None:
         qtbot.mouseClick(line, Qt.MouseButton.LeftButton)
     with qtbot.waitSignal(line.clicked):
         qtbot.mouseClick(line.button, Qt.MouseButton.LeftButton)
+
+
+@pytest.mark.parametrize("width", [780, 934])
+def test_a_narrow_window_leaves_calm_words_out_rather_than_cut_them(
+    shown: Callable[[Any], Any], qtbot: QtBot, width: int
+) -> None:
+    line = shown(StatusLine())
+    line.resize(width, line.height())
+    status = Status(gaps=1, gap_s=0.1, temp_c=25.0, battery_percent=12.0, rssi_dbm=-62.0, filter="mahony", age_ms=4.0)
+    line.refresh(status)
+    seen = {name: label for name, label in line.labels.items() if not label.isHidden()}
+    assert {"rate", "gaps", "age", "battery"} <= seen.keys()
+    assert "filter" not in seen
+    qtbot.waitUntil(lambda: all(label.width() >= label.sizeHint().width() for label in seen.values()))
+    line.resize(1400, line.height())
+    line.refresh(status)
+    assert not line.labels["filter"].isHidden()
