@@ -35,6 +35,8 @@ from imugui.targeting.statistics import (
 from imugui.targeting.trials import Trial
 
 PRIMARY = "movement_time_s"
+FEWEST_PEOPLE = 2
+"""To say anything of people who did not take part."""
 
 Orders = Mapping[str, Sequence[str]]
 """Which conditions a person met, in their order."""
@@ -179,13 +181,20 @@ def sentence(comparison: Comparison) -> str:
     one, what = comparison, MEASURES[comparison.measure]
     holm_word = " after Holm" if one.adjusted_p != one.permutation.p and math.isfinite(one.adjusted_p) else ""
     tail = f"p = {p_text(one.adjusted_p if holm_word else one.permutation.p)}{holm_word}, {len(one.people)} people"
+    if len(one.people) < FEWEST_PEOPLE:
+        tail = "one person: nothing can be said of others"
     if one.geometric:
         found, title = one.ratio, what.title
-        limits = f"95 % limits {found.low:.2f} to {found.high:.2f}"
-        return f"{title} with {one.b} is {found.ratio:.2f} times that with {one.a} ({limits}; {tail})."
+        limits = _limits(f"{found.low:.2f} to {found.high:.2f}", found.low)
+        return f"{title} with {one.b} is {found.ratio:.2f} times that with {one.a} ({limits}{tail})."
     unit = f" {what.unit}".rstrip()
-    limits = f"95 % limits {one.paired.low:+.2f} to {one.paired.high:+.2f}{unit}"
-    return f"{what.title} with {one.b} is {one.paired.mean:+.2f}{unit} against {one.a} ({limits}; {tail})."
+    limits = _limits(f"{one.paired.low:+.2f} to {one.paired.high:+.2f}{unit}", one.paired.low)
+    return f"{what.title} with {one.b} is {one.paired.mean:+.2f}{unit} against {one.a} ({limits}{tail})."
+
+
+def _limits(text: str, low: float) -> str:
+    """The limits in words, with what parts them from what follows; empty where there are none."""
+    return "" if math.isnan(low) else f"95 % limits {text}; "
 
 
 def group_mean(values: Sequence[float], geometric: bool) -> float:

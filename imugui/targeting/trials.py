@@ -80,6 +80,8 @@ AXES = ("x", "y", "z")
 KINDS: dict[str, Any] = typing.get_type_hints(Trial)
 FIELDS = tuple(field.name for field in dataclasses.fields(Trial))
 CHOICES = {"task": TASKS, "selection": SELECTIONS}
+LARGEST = 10**9
+"""of a whole number; no count of ours comes near."""
 REQUIRED = ("participant", "condition", "movement_time_s")
 COLUMNS: tuple[str, ...] = tuple(
     column
@@ -179,6 +181,13 @@ def _number(text: str) -> float:
     return value
 
 
+def _whole(text: str) -> int:
+    value = int(text)
+    if abs(value) > LARGEST:
+        raise ValueError(text)
+    return value
+
+
 def _numbers(text: str) -> tuple[float, ...]:
     return tuple(_number(word) for word in text.split())
 
@@ -188,4 +197,4 @@ def _flag(text: str) -> bool:
 
 
 _WRITERS: dict[Any, Callable[[Any], str]] = {str: str, int: str, float: _number_text, bool: lambda flag: str(int(flag))}
-_READERS: dict[Any, Callable[[str], Any]] = {str: str, int: int, float: _number, bool: _flag}
+_READERS: dict[Any, Callable[[str], Any]] = {str: str, int: _whole, float: _number, bool: _flag}

@@ -18,7 +18,7 @@ from imugui.views.controls import Button
 from imugui.views.form import Form
 from imugui.views.labels import ElidedLabel, heading, muted
 from imugui.views.settings_store import SettingsStore
-from imugui.views.shortcuts import KEYS, PLOT_KEYS
+from imugui.views.shortcuts import GAME_KEYS, KEYS, PLOT_KEYS
 from imugui.views.view import View
 from imugui.workers.session import Session
 
@@ -130,7 +130,7 @@ def _keyboard() -> QWidget:
     grid.setHorizontalSpacing(20)
     grid.setVerticalSpacing(6)
     grid.setColumnStretch(1, 1)
-    rows = [("1, 2, …", "Bring a page to the front"), *((key.keys, key.words) for key in (*KEYS, *PLOT_KEYS))]
+    rows = [("1, 2, …", "Bring a page to the front"), *((key.keys, key.words) for key in (*KEYS, *PLOT_KEYS, *GAME_KEYS))]
     rows.append(("Arrows, + and −", "In the picture: look around and zoom; turn the board where it is turned by hand"))
     for row, (keys, words) in enumerate(rows):
         label = QLabel(keys)

@@ -36,8 +36,13 @@ KEYS = (
     Key("P", "toggle_pause", "Signals: pause or resume", page=True),
     Key("S", "toggle_spectrum", "Signals: spectrum or time", page=True),
     Key("F", "fit_scales", "Signals: fit the scales to the data", page=True),
+    Key("K", "toggle_spike_mask", "Signals: mask the spikes of the board's button, or not", page=True),
     Key("Ctrl+E", "export_data", "Signals: export the data on screen", page=True),
     Key("Ctrl+Shift+C", "copy_picture", "Signals: copy the plots as a picture", page=True),
+    Key("T", "take", "Guide: take the reading, or the pose; in the target also Space", page=True),
+    Key("N", "next_plan", "Guide: the next trajectory", page=True),
+    Key("Shift+N", "previous_plan", "Guide: the trajectory before", page=True),
+    Key("G", "register", "Guide: register again", page=True),
     Key("Space", "toggle_playing", "Replay: play or pause", spare=True),
     Key("Left", "skip_back", "Replay: 5 s back", spare=True),
     Key("Right", "skip_on", "Replay: 5 s on", spare=True),
@@ -47,7 +52,7 @@ KEYS = (
     Key(">", "faster", "Replay: faster", spare=True),
     Key("C", "show_compare", "Replay: compare filters"),
     Key("L", "show_link_log", "Open the link log"),
-    Key("Esc", "dismiss_message", "Dismiss the message"),
+    Key("Esc", "dismiss_message", "Dismiss the message; while a run of the game is on: emergency stop"),
     Key("F11", "toggle_full_screen", "Full screen on or off"),
     Key("Ctrl+Q", "close", "Quit"),
 )
@@ -64,6 +69,16 @@ PLOT_KEYS = (
     Key("PgDown", "page_on", "In the plots: half a window on"),
 )
 """Keys that the plots of the Signals page take themselves, while they have the focus."""
+
+
+GAME_KEYS = (
+    Key("Space", "pan", "In the game: pan while held; with latching buttons short: pan, long: zoom, again: stop"),
+    Key("Z", "zoom", "In the game: zoom while held"),
+    Key("X", "clutch", "In the game: the view waits while held"),
+    Key("Return", "go_on", "In the game: start, select, confirm"),
+    Key("Backspace", "reset", "In the game: the first step out of an emergency stop"),
+)
+"""Keys that the picture of the Target page takes itself, while it has the focus."""
 
 
 def spare_key(code: int, modifiers: Qt.KeyboardModifier) -> Key | None:

@@ -103,4 +103,3 @@ def begun(game: Game) -> dict[str, Any]:
         "targets": [list(target) for target in game.targets],
         "labels": asdict(game.labels),
     }
-
