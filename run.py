@@ -1,6 +1,6 @@
 """Make imugui's environment beside this file, then start the window, the tests or a benchmark in it.
 
-python3 run.py [arguments of imugui]    python3 run.py test [arguments of pytest]    python3 run.py bench NAME
+python3 run.py [arguments of imugui]    python3 run.py test [arguments of pytest]    python3 run.py bench [NAME]
 Standard library only. Nothing outside this folder changes, but for Qt's system libraries when root on Debian or Ubuntu.
 """
 
@@ -24,6 +24,9 @@ PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 STAMP = VENV / "imugui-installed.txt"  # what was installed, or UNFINISHED
 UNFINISHED = "unfinished"
 OLDEST, NEWEST = (3, 11), (3, 13)
+ALL_BENCHMARKS = "figures"
+WITH_PEERS = (ALL_BENCHMARKS, "accuracy")  # benchmarks that compare with other libraries
+SIDE_BY_SIDE = ("-n", "2", "--dist", "worksteal")  # tests wait more than they compute; -n 0 after it: one by one
 HEADLESS = ("core", "look")  # groups of run_system.NEEDS that every run on Linux needs
 
 # Words in what venv and pip print -> cause, next step; the first that fits is told.
@@ -90,18 +93,19 @@ def plan_app(args: Sequence[str], environ: Mapping[str, str], platform_name: str
 
 def plan_test(args: Sequence[str], environ: Mapping[str, str], platform_name: str) -> Plan:
     """The tests, with pytest's arguments, in the project's folder."""
-    return Plan(("-m", "pytest", *args), (*HEADLESS, "test"), ("test",), in_root=True)
+    return Plan(("-m", "pytest", *SIDE_BY_SIDE, *args), (*HEADLESS, "test"), ("test",), in_root=True)
 
 
 def plan_bench(args: Sequence[str], environ: Mapping[str, str], platform_name: str) -> Plan:
-    """One benchmark, with the rest of the arguments."""
+    """One benchmark, with the rest of the arguments; without any, all of them but the long ones."""
     names = sorted(path.stem for path in (ROOT / "benchmarks").glob("[!_]*.py"))
     listing = f"the benchmarks are: {', '.join(names) or 'none yet'}"
-    if not args:
-        return Plan((), notes=(listing,))
-    if args[0] not in names:
-        raise Trouble(f"there is no benchmark {args[0]!r}; {listing}")
-    return Plan((str(ROOT / "benchmarks" / f"{args[0]}.py"), *args[1:]))
+    name, *rest = args or (ALL_BENCHMARKS,)
+    if name not in names:
+        raise Trouble(f"there is no benchmark {name!r}; {listing}")
+    notes = () if args else (f"all but the long ones, for docs/figures.md; {listing}",)
+    extras = ("bench",) if name in WITH_PEERS else ()
+    return Plan((str(ROOT / "benchmarks" / f"{name}.py"), *rest), extras=extras, notes=notes)
 
 
 PLANS: dict[str, Callable[..., Plan]] = {"test": plan_test, "bench": plan_bench}

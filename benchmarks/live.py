@@ -1,27 +1,31 @@
-"""Age of samples at publish with the window painting, against the same stream without a window.
+"""Age of samples at publish and at paint, with each page in front, against an empty window on the same stream.
 
-A child process sends samples over a pseudo-terminal; this one reads, decodes, fuses and (second run) paints the Live
-page at 60 Hz. Prints one JSON line a run and the ratio.
+A child process sends samples over a pseudo-terminal at 100, 200, 400 and 1000 Hz; this one reads, decodes, fuses and
+paints. Prints one JSON line for each rate and page: ages in ms, rows missed, processor share, frames a second; the
+ratio is that of the 99th percentiles at publish.
 
-    python3 run.py bench live [--seconds 60] [--rate 1000] [--format triplets]
+    python3 run.py bench live [--seconds 3] [--rates 100 200 400 1000] [--format triplets]
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import multiprocessing
 import os
 import sys
 import tempfile
 import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
+import numpy as np
+from _measure import line
 from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QMainWindow, QWidget
 
 from imugui import app as composition
 from imugui.formats import FORMATS
@@ -31,24 +35,38 @@ from imugui.simulation.errors import PRESETS
 from imugui.simulation.pty_board import PtyBoard
 from imugui.simulation.pty_port import PtyPort
 from imugui.simulation.wire import Wire
+from imugui.views import VIEWS
 from imugui.views.main_window import MainWindow
 from imugui.views.settings_store import SettingsStore
-from imugui.workers.headless import report, spin
+from imugui.workers.headless import spin
 from imugui.workers.session import Session, Source, Status
 
 SETTLE_S = 3.0
+PAGE_SETTLE_S = 0.5
+SAME_FRAME_S = 0.008
+RATES_HZ = (100.0, 200.0, 400.0, 1000.0)
+LIMIT = {(1000.0, "live"): 5.0}  # ms, age at publish, 99th percentile
+EMPTY = "empty window"
 
 
-class PaintCount(QObject):
-    """Counts the paint events of one widget."""
+class Frames(QObject):
+    """Notes, whenever a widget or one of its parts is painted, how old the newest attitude is."""
 
-    def __init__(self, watched: QWidget) -> None:
-        super().__init__(watched)
-        self.paints = 0
-        watched.installEventFilter(self)
+    def __init__(self, watched: QWidget, session: Session) -> None:
+        super().__init__()
+        self.ages_ms: list[float] = []
+        self._session = session
+        self._last = 0.0
+        for widget in (watched, *watched.findChildren(QWidget)):
+            widget.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802
-        self.paints += event.type() == QEvent.Type.Paint
+        now = time.perf_counter()
+        if event.type() == QEvent.Type.Paint and now - self._last > SAME_FRAME_S:
+            self._last = now
+            newest = self._session.attitude.last(1)
+            if len(newest):
+                self.ages_ms.append(1e3 * (now - float(newest["t_arrival"][0])))
         return super().eventFilter(watched, event)
 
 
@@ -61,29 +79,21 @@ def send(link: str, name: str, rate_hz: float, stop: Any) -> None:
     port.close()
 
 
-def run(link: Path, seconds: float, window: bool) -> dict[str, Any]:
-    """One run; ages are counted after the first seconds, in which format and filter are found."""
-    application = composition.make_application()
-    session = Session()
-    shown = MainWindow(session, SettingsStore(link.parent / FILE_NAME)) if window else None
-    if shown is not None:
-        shown.resize(1280, 800)
-        shown.show()
-        count = PaintCount(shown.page().scene)
-    session.connect_to(Source("serial", str(link)))
-    wait(session, SETTLE_S)
-    session.reset_ages()
-    before, cpu = session.status(), time.process_time()
-    painted = count.paints if shown else 0
-    status = wait(session, seconds)
-    result = report(session, status) | {"window": window, "cpu": round((time.process_time() - cpu) / seconds, 3)}
-    result["measured_samples"] = status.samples - before.samples
-    if shown is not None:
-        result["frames_per_s"] = round((count.paints - painted) / seconds, 1)
-        shown.close()
-    session.close()
-    application.processEvents()
-    return result
+@contextmanager
+def board(link: Path, name: str, rate_hz: float) -> Iterator[None]:
+    """A board that sends as long as the block lasts."""
+    context = multiprocessing.get_context("spawn")
+    stop = context.Event()
+    child = context.Process(target=send, args=(str(link), name, rate_hz, stop))
+    child.start()
+    until = time.perf_counter() + 30.0
+    while not link.exists() and time.perf_counter() < until:
+        time.sleep(0.05)
+    try:
+        yield
+    finally:
+        stop.set()
+        child.join()
 
 
 def wait(session: Session, seconds: float) -> Status:
@@ -91,27 +101,66 @@ def wait(session: Session, seconds: float) -> Status:
     return spin(session, lambda _: time.perf_counter() > until)
 
 
+def measured(session: Session, watched: QWidget, seconds: float) -> dict[str, Any]:
+    """What happens in the next seconds."""
+    session.reset_ages()
+    frames, cpu, before = Frames(watched, session), time.process_time(), session.status()
+    status = wait(session, seconds)
+    shares = np.percentile(frames.ages_ms, (50, 95, 99)).round(1).tolist() if frames.ages_ms else []
+    return {
+        "age_ms": session.age_quantiles(),
+        "paint_age_ms": dict(zip(("p50", "p95", "p99"), shares, strict=False)),
+        "missed_rows": status.missed_rows - before.missed_rows,
+        "samples": status.samples - before.samples,
+        "cpu": round((time.process_time() - cpu) / seconds, 3),
+        "frames_per_s": round(len(frames.ages_ms) / seconds, 1),
+    }
+
+
+def one_rate(link: Path, rate_hz: float, seconds: float, pages: Sequence[str]) -> None:
+    """Print the figures of one rate: the empty window first, then pages of the real one."""
+    found: dict[str, dict[str, Any]] = {}
+    session, bare = Session(), QMainWindow()
+    bare.resize(1280, 800)
+    bare.show()
+    session.connect_to(Source("serial", str(link)))
+    wait(session, SETTLE_S)
+    found[EMPTY] = measured(session, bare, seconds)
+    session.disconnect_source()
+    bare.close()
+    window = MainWindow(session, SettingsStore(link.parent / FILE_NAME))
+    window.resize(1280, 800)
+    window.show()
+    session.connect_to(Source("serial", str(link)))
+    wait(session, SETTLE_S)
+    for name in pages:
+        window.show_page(name)
+        wait(session, PAGE_SETTLE_S)
+        found[name] = measured(session, window.page(), seconds)
+    window.close()
+    session.close()
+    base = found[EMPTY]["age_ms"]["p99"]
+    for name, figures in found.items():
+        limit = LIMIT.get((rate_hz, name))
+        p99 = figures["age_ms"]["p99"]
+        ok = figures["missed_rows"] == 0 and (limit is None or p99 <= limit)
+        line("live", f"{rate_hz:g} Hz, {name}", p99 / base, None, False, ok=ok, limit_ms=limit, **figures)
+
+
 def main() -> int:
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--seconds", type=float, default=20.0)
-    arguments.add_argument("--rate", type=float, default=1000.0)
+    arguments.add_argument("--seconds", type=float, default=3.0)
+    arguments.add_argument("--rates", type=float, nargs="+", default=RATES_HZ)
+    arguments.add_argument("--pages", nargs="+", choices=list(VIEWS), default=list(VIEWS))
     arguments.add_argument("--format", choices=list(FORMATS), default="triplets")
     chosen = arguments.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        link = Path(folder) / "board"
-        context = multiprocessing.get_context("spawn")
-        stop = context.Event()
-        child = context.Process(target=send, args=(str(link), chosen.format, chosen.rate, stop))
-        child.start()
-        while not link.exists():
-            time.sleep(0.05)
-        results = [run(link, chosen.seconds, window) for window in (False, True)]
-        stop.set()
-        child.join()
-    for result in results:
-        print(json.dumps({"benchmark": "live", "rate": chosen.rate, **result}))
-    ages = [result["age_ms"]["p99"] for result in results]
-    print(json.dumps({"benchmark": "live", "age_p99_with_window_to_without": round(ages[1] / ages[0], 2)}))
+    application = composition.make_application()
+    for rate_hz in chosen.rates:
+        with tempfile.TemporaryDirectory() as folder:
+            link = Path(folder) / "board"
+            with board(link, chosen.format, rate_hz):
+                one_rate(link, rate_hz, chosen.seconds, chosen.pages)
+            application.processEvents()
     return 0
 
 

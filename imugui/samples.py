@@ -53,6 +53,7 @@ ATTITUDE = np.dtype(
         ("sigma_tilt", "f8"),  # rad, 1 sigma; NaN when the filter does not know
         ("sigma_heading", "f8"),  # rad, 1 sigma; NaN when the filter does not know
         ("status", "i2"),
+        ("masked", "?"),  # the button moved: acc is that of before, neither it nor mag was fed to the filter
     ]
 )
 

@@ -11,12 +11,12 @@ from operator import itemgetter
 
 from imugui.formats.base import Encoder, Options
 from imugui.formats.families import FAMILIES, family, on_wire, to_wire
-from imugui.formats.lines import LineDecoder
+from imugui.formats.lines import CR, CRLF, MAX_LINE, LineDecoder
 from imugui.formats.values import (
     IMPOSSIBLE_FIELD,
     IMPOSSIBLE_TEMPERATURE,
     NAN,
-    NO_GNSS,
+    NO_ROWS,
     NUMBER_CHARS,
     RAD_PER_DEG,
     loses_decimals,
@@ -32,7 +32,9 @@ ACCEL, GYRO, MAG, TEMP = range(4)
 WORDS = {b"ACCEL": ACCEL, b"GYRO": GYRO, b"MAG": MAG, b"TEMP": TEMP}
 SHAPES = (b"ACCEL   ", b"GYRO   ", b"MAG   ", b"TEMP ")
 WHOLE_SHAPE = b" ".join(SHAPES)
+ENDED_SHAPES = tuple(shape + CRLF for shape in SHAPES)
 WHOLE_WORDS = list(WORDS)
+WHOLE_LENGTH = 14
 WHOLE_NUMBERS = itemgetter(1, 2, 3, 5, 6, 7, 9, 10, 11, 13)
 UNKNOWN = (NAN, NAN, NAN)
 ALIASES = {
@@ -62,12 +64,52 @@ class AccelLinesDecoder(LineDecoder):
         self._parts: list[Sequence[float] | None] = [None] * 4
         self._newest = -1  # the part that came last in the open message; -1: none is open
         self._counted = False  # a damaged line of the open message has been counted already
+        self._held: list[tuple[float, bytes]] = []  # (arrival, line) of a message that so far came line by line
         self._joined = False  # the open message may have begun before the port was opened
         self.seen = f"g, deg/s, uT; {chosen.title}"
         self.rate_hz = RATE_HZ
 
+    def feed(self, chunk: bytes, t: float) -> Rows:
+        """The SAMPLE rows, shape (n,), that ``chunk`` completes; t is its host arrival time, s.
+
+        Lines that come one by one, as from a port, wait for their TEMP: a whole message is read at once.
+        """
+        held = self._held
+        number = len(held)
+        if (
+            chunk.translate(None, NUMBER_CHARS) == ENDED_SHAPES[number]
+            and chunk[-2] == CR
+            and (number or (self._newest < 0 and len(chunk) < MAX_LINE and self._between_lines))
+        ):
+            held.append((t, chunk))
+            if number < TEMP:
+                return NO_ROWS
+            self._release()
+            return self._collect() if self._packed else NO_ROWS
+        if number:
+            self._release()
+        return super().feed(chunk, t)
+
+    def flush(self, t: float) -> Rows:
+        """The rows still held back at the end of a file: a last line without a line end counts."""
+        self._release()
+        return super().flush(t)
+
+    def _release(self) -> None:
+        """Read the lines that waited, at the times when they came."""
+        held, self._held = self._held, []
+        text = b"".join([line for _, line in held])
+        self.counts.bytes += len(text)
+        if len(held) > TEMP:
+            self._t = held[TEMP][0]
+            if self._whole(text.split()):
+                return
+        for self._t, line in held:
+            self._line(bytes(line[:-2]))
+
     def resync(self) -> None:
         """Forget the half line and the half message: the port was opened (again). Counts stay."""
+        self._release()
         super().resync()
         if self._newest >= 0:
             self._note("half a message dropped at the reopening")
@@ -82,25 +124,25 @@ class AccelLinesDecoder(LineDecoder):
         first = 0
         while first + 4 <= len(lines):
             four = lines[first : first + 4]
-            if self._newest < 0 and not self._may_be_cut and self._whole(four):
+            text = b" ".join(four)
+            fits = self._newest < 0 and not self._may_be_cut and text.translate(None, NUMBER_CHARS) == WHOLE_SHAPE
+            if fits and self._whole(text.split(b" ")):
                 first += 4
             else:
                 super()._read(four[:1])
                 first += 1
         super()._read(lines[first:])
 
-    def _whole(self, lines: list[bytes]) -> bool:
-        """Whether these four lines were one undamaged message, now read."""
-        text = b" ".join(lines)
-        words = text.split(b" ")
-        if text.translate(None, NUMBER_CHARS) != WHOLE_SHAPE or words[::4] != WHOLE_WORDS:
+    def _whole(self, words: list[bytes]) -> bool:
+        """Whether the words of four lines were one undamaged message, now read."""
+        if words[::4] != WHOLE_WORDS or len(words) != WHOLE_LENGTH:
             return False
-        accel, gyro, mag, temp = lines
-        if not accel[-3] == gyro[-3] == mag[-3] == temp[-3] == POINT:
-            return False
+        wanted = WHOLE_NUMBERS(words)
         try:
-            v = list(map(float, WHOLE_NUMBERS(words)))
-        except ValueError:
+            if not wanted[2][-3] == wanted[5][-3] == wanted[8][-3] == wanted[9][-3] == POINT:
+                return False
+            v = list(map(float, wanted))
+        except (ValueError, IndexError):
             return False
         self._counted = self._joined = False
         self._give(v)
@@ -167,22 +209,22 @@ class AccelLinesDecoder(LineDecoder):
 
     def _give(self, v: Sequence[float]) -> None:
         """Give out a message's ten values; an impossible field or temperature is bad but spoils no more than itself."""
+        ax, ay, az, gx, gy, gz = v[:6]
         (i, x), (j, y), (k, z) = self._mag_axes
-        row = (
-            v[3] * RAD_PER_DEG,
-            v[4] * RAD_PER_DEG,
-            v[5] * RAD_PER_DEG,
-            v[0] * GRAVITY,
-            v[1] * GRAVITY,
-            v[2] * GRAVITY,
+        reason = self._emit(
+            self._t,
+            gx * RAD_PER_DEG,
+            gy * RAD_PER_DEG,
+            gz * RAD_PER_DEG,
+            ax * GRAVITY,
+            ay * GRAVITY,
+            az * GRAVITY,
             v[i] * x,
             v[j] * y,
             v[k] * z,
             v[9],
             NO_STATUS,
-            *NO_GNSS,
         )
-        reason = self._emit(self._t, row)
         if reason:
             self._bad(reason, MESSAGE % tuple(v))
         if reason == IMPOSSIBLE_FIELD:

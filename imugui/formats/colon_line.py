@@ -17,14 +17,16 @@ import numpy as np
 from imugui.formats.base import Encoder, Options
 from imugui.formats.families import FAMILIES, Family, family
 from imugui.formats.lines import LineDecoder
-from imugui.formats.values import NAN, NO_GNSS, NUMBER_CHARS, RAD_PER_DEG, GravityWatch, numbers
+from imugui.formats.values import NAN, NUMBER_CHARS, RAD_PER_DEG, GravityWatch, numbers
 from imugui.samples import GRAVITY, Rows
 
 FAMILY = "mpu6050"
 RATE_HZ = 100.0
 HOLD = 50
 CLOSE = 1.25  # times or divided by
-STATUSES = frozenset(map(float, range(256)))
+STATUSES = frozenset(range(256))
+LONG = 100  # bytes
+COLON = ord(":")
 SHAPE = b"#:::::::::"
 NO_TEMPERATURE_C = 150.0  # degrees Celsius; a number beyond it must be a raw count
 
@@ -78,9 +80,11 @@ class ColonLineDecoder(LineDecoder):
         self.rate_hz = RATE_HZ
 
     def _line(self, line: bytes) -> None:
-        if line.translate(None, NUMBER_CHARS) == SHAPE and line.startswith(b"#:"):
+        if line.translate(None, NUMBER_CHARS) == SHAPE and line[1] == line[-1] == COLON:
             try:
-                values: Values | None = list(map(float, line[2:-1].split(b":")))
+                # whole numbers are read in half the time; a short one is the same as a float
+                kind = float if b"." in line or len(line) > LONG else int
+                values: Values | None = list(map(kind, line[2:-1].split(b":")))
             except ValueError:
                 values = None
         else:
@@ -88,12 +92,23 @@ class ColonLineDecoder(LineDecoder):
             tokens = [token.strip() for token in line[2:-1].split(b":")]
             whole = len(tokens) == 8 and line.startswith(b"#:") and line.endswith(b":")
             values = numbers(tokens) if whole else None
+        scale = self._scale
         if values is None or values[7] not in STATUSES:
             self._not_data(line)
-        elif self._scale is None:
+            return
+        if scale is None:
             self._hold(values, line)
-        else:
-            self._accept(self._scale, values, line)
+            return
+        ax, ay, az, gx, gy, gz, temp, status = values
+        acc, gyr = scale.acc, scale.gyr
+        ax, ay, az = ax * acc, ay * acc, az * acc
+        temp_c = temp * scale.temp + scale.temp_zero
+        reason = self._emit(self._t, gx * gyr, gy * gyr, gz * gyr, ax, ay, az, NAN, NAN, NAN, temp_c, int(status))
+        if reason:
+            self._bad(reason, line)
+        elif not self._watch.trusted and self._watch.update(ax, ay, az):
+            self.seen = f"{scale.words} {self._watch.doubt}".strip()
+            self._note(self.seen)
 
     def _data_like(self, line: bytes) -> bool:
         return line.startswith(b"#:") or super()._data_like(line)
@@ -129,21 +144,9 @@ class ColonLineDecoder(LineDecoder):
         self.seen = self._scale.words
         self._note(f"decided by |acc| = {math.hypot(*values[:3]):g}: {self.seen}")
         now, held, self._held = self._t, self._held, []
-        for self._t, values, line in held:
-            self._accept(self._scale, values, line)
+        for self._t, _, line in held:
+            self._line(line)
         self._t = now
-
-    def _accept(self, scale: Scale, v: Values, line: bytes) -> None:
-        ax, ay, az = v[0] * scale.acc, v[1] * scale.acc, v[2] * scale.acc
-        gx, gy, gz = v[3] * scale.gyr, v[4] * scale.gyr, v[5] * scale.gyr
-        temp_c = v[6] * scale.temp + scale.temp_zero
-        row = (gx, gy, gz, ax, ay, az, NAN, NAN, NAN, temp_c, int(v[7]), *NO_GNSS)
-        reason = self._emit(self._t, row)
-        if reason:
-            self._bad(reason, line)
-        elif not self._watch.trusted and self._watch.update(ax, ay, az):
-            self.seen = f"{scale.words} {self._watch.doubt}".strip()
-            self._note(self.seen)
 
 
 class ColonLineEncoder(Encoder):

@@ -69,6 +69,8 @@ UNITS: dict[str, dict[str, float]] = {
 """What one unit is worth in SAMPLE's."""
 NAMED_UNITS = {"seconds": "s", "millis": "ms", "micros": "us", "tempc": "c"}
 
+LONGEST_NAME = 200
+"""Characters; a longer cell is no name, and would take the patterns below for ever."""
 _FACTOR = re.compile(r"(.*?)([*/])\s*(-?[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)")
 _BRACKETS = re.compile(r"(.*?)\s*[(\[{]\s*(.*?)\s*[)\]}]")
 _SIGNS = str.maketrans({"²": "2", "^": "", "µ": "u", "μ": "u", "°": "deg", " ": "", "·": "", "*": ""})
@@ -90,6 +92,8 @@ def read_name(name: str, names: Mapping[str, str] = NAMES) -> Column | None:
     a negative one turns the axis round.
     """
     text = name.strip().strip("\"'").strip()
+    if len(text) > LONGEST_NAME:
+        return None
     scale = 1.0
     if scaling := _FACTOR.fullmatch(text):
         text = scaling[1].strip()

@@ -14,8 +14,9 @@ from operator import mul
 from imugui.formats.base import Encoder, Options
 from imugui.formats.column_map import ColumnMap
 from imugui.formats.columns import POSITION, STATUS, Table, table_from
+from imugui.formats.csv_block import rows_of
 from imugui.formats.families import family
-from imugui.formats.lines import LineDecoder, readable
+from imugui.formats.lines import MAX_LINE, LineDecoder, readable
 from imugui.formats.values import (
     DIGITS,
     LETTERS,
@@ -36,6 +37,7 @@ BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 REPLACED = ((b" sec", b""), (b",", b"."))
 """In files with a column map: the unit that MATLAB's timetables write after each time; decimal commas."""
 LONGEST_HEADER = 1000  # bytes
+LARGE = 1 << 14  # bytes of a piece whose lines are tried at once
 HEADER_NAMES = 3  # so many known names make a line a header
 NO_HEADER = "numbers without a header line: name the columns and units once"
 
@@ -78,7 +80,28 @@ class CsvLineDecoder(LineDecoder):
         """The SAMPLE rows, shape (n,), that ``chunk`` completes; t is its host arrival time, s."""
         for old, new in self._replaced:
             chunk = chunk.replace(old, new)
-        return super().feed(chunk, t)
+        rows = self._at_once(chunk, t) if len(chunk) >= LARGE else None
+        if rows is None:
+            return super().feed(chunk, t)
+        self._packed += rows.tobytes()
+        return self._collect()
+
+    def _at_once(self, chunk: bytes, t: float) -> Rows | None:
+        """The rows of a piece of a file when all of its lines are as usual; None, and nothing is changed, when not."""
+        table = self._table
+        watched = table is not None and table.force == "total" and not self._watch.trusted
+        if table is None or table.problem or watched or self._kept or self._skipped or self._may_be_cut:
+            return None
+        text = self._pending + chunk
+        end = text.rfind(b"\n") + 1
+        if end == 0 or len(text) - end > MAX_LINE:
+            return None
+        rows = rows_of(table, text[:end], self._number_chars, None if self.has_time else t, t)
+        if rows is not None:
+            self._t, self._pending = t, text[end:]
+            self._between_lines = not self._pending
+            self.counts.bytes += len(chunk)
+        return rows
 
     def _follow(self, column_map: ColumnMap) -> None:
         self._named = column_map.columns
@@ -115,16 +138,14 @@ class CsvLineDecoder(LineDecoder):
             self._bad("impossible status", line)
             return
         values[place] = int(status) if status == status else NO_STATUS
-        t, *row = table.pick(values)
-        if not self.has_time:
-            t = self._t
-        elif not abs(t) < 1e18:
+        picked = table.pick(values)
+        if self.has_time and not abs(picked[0]) < 1e18:
             self._bad("no time", line)
             return
-        reason = self._emit(t, row)
+        reason = self._emit(*picked) if self.has_time else self._emit(self._t, *picked[1:])
         if reason:
             self._bad(reason, line)
-        elif table.force == "total" and not self._watch.trusted and self._watch.update(*row[3:6]):
+        elif not self._watch.trusted and table.force == "total" and self._watch.update(*picked[4:7]):
             self.seen = f"{table.words} {self._watch.doubt}".strip()
             self._note(self.seen)
 

@@ -18,7 +18,8 @@ from imugui.formats.columns import UNITS, plain_unit
 HEAD = 65536  # bytes of a file that are looked at
 MOST_ROWS = 2000
 HEADER_LINES = 3  # so many lines above the numbers are searched for names
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)"
+# each digit can be read in one way only: else a long run of them takes for ever
+NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)"
 ENOUGH_ROWS = 2
 
 _CELL = {

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from imugui.formats.columns import NAMED_UNITS, factor_of, read_name
+from imugui.formats.columns import LONGEST_NAME, NAMED_UNITS, factor_of, read_name
 
 ACC_WORDS = {"a", "acc", "accel", "accelerometer", "acceleration", "accelerations"}
 GYR_WORDS = {
@@ -66,6 +66,8 @@ UNKNOWN = Meaning("")
 
 def read_spelling(name: str, file: str = "") -> Meaning:
     """The meaning of a column's name; ``file``, its file's name without folder and ending, helps with a bare "x"."""
+    if len(name) > LONGEST_NAME:
+        return UNKNOWN
     stem, unit = _split_unit(name)
     words = words_of(stem)
     if not words or set(words) & STRANGE_WORDS:

@@ -75,27 +75,33 @@ class TripletsDecoder(LineDecoder):
             self._accept(values, line)
 
     def _accept(self, v: Sequence[float], line: bytes) -> None:
-        if v[3] == v[4] == v[5] and self._is_false(v, line):
+        ax, ay, az, gx, gy, gz = v[:6]
+        if gx == gy == gz and self._is_false(v, line):
             return
         if len(v) == 15 and v[11] != 0:
             self._bad("malformed", line)
             return
+        lat, lon, alt, speed, course_deg = NO_GNSS if len(v) == 9 else _gnss(v)
         (i, x), (j, y), (k, z) = self._mag_axes
-        row = (
-            v[3] * RAD_PER_DEG,
-            v[4] * RAD_PER_DEG,
-            v[5] * RAD_PER_DEG,
-            v[0] * GRAVITY,
-            v[1] * GRAVITY,
-            v[2] * GRAVITY,
+        reason = self._emit(
+            self._t,
+            gx * RAD_PER_DEG,
+            gy * RAD_PER_DEG,
+            gz * RAD_PER_DEG,
+            ax * GRAVITY,
+            ay * GRAVITY,
+            az * GRAVITY,
             v[i] * x,
             v[j] * y,
             v[k] * z,
             NAN,
             NO_STATUS,
-            *_gnss(v),
+            lat,
+            lon,
+            alt,
+            speed,
+            course_deg,
         )
-        reason = self._emit(self._t, row)
         if reason:
             self._bad(reason, line)
         else:
@@ -121,8 +127,9 @@ class TripletsDecoder(LineDecoder):
             return False
         return True
 
-    def _collect(self) -> Rows:
-        rows = super()._collect()
+    def flush(self, t: float) -> Rows:
+        """The rows still held back at the end of a file, and the rate of what it was full of."""
+        rows = super().flush(t)
         mostly_position = self._with_position > 0.9 * self.counts.messages
         self.rate_hz = GNSS_RATE_HZ if mostly_position else IMU_RATE_HZ
         return rows

@@ -42,6 +42,8 @@ class RestDetector:
         gx, gy, gz, ax, ay, az = self._low
         ux, uy, uz = gyr[0] - gx, gyr[1] - gy, gyr[2] - gz
         vx, vy, vz = acc[0] - ax, acc[1] - ay, acc[2] - az
+        if not (acc[0] or acc[1] or acc[2]):
+            vx = vy = vz = 0.0  # no force was measured
         gx, gy, gz = gx + k * ux, gy + k * uy, gz + k * uz
         self._low = [gx, gy, gz, ax + k * vx, ay + k * vy, az + k * vz]
         self.rate = hypot(gx, gy, gz)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -14,9 +14,12 @@ from imugui.fusion.attitude import from_acc_mag, from_euler, heading_deg
 from imugui.fusion.correction import Correction
 from imugui.fusion.filter import Filter
 from imugui.fusion.quaternion import conjugate, length, multiply, normalise
-from imugui.fusion.scalar import FREE_FALL, MAX_DT, Quat, direction
+from imugui.fusion.scalar import FREE_FALL, Quat, direction
+from imugui.fusion.spike_mask import SpikeMask
+from imugui.fusion.stretches import SAID, run
 from imugui.samples import ATTITUDE, Rows, empty_rows
 
+PIECE = 4000  # rows
 LARGEST_RATE = 1e3  # rad/s; no gyroscope reads more
 LARGEST_FORCE = 1e4  # m/s2
 LARGEST_FIELD = 1e6  # uT, to square without overflow
@@ -34,6 +37,8 @@ class Pipeline:
       is a gap: the filter restarts from the accelerometer, keeping its bias and, until the next field, its heading.
     - A magnetometer triple that repeats the one before it is held by the board and not a new measurement.
     - A row without a usable time, rate or force is not fed; the attitude is held and the next dt bridges it.
+    - With ``spike_mask`` force and field are not fed while the board's button moves, and the force shown is held; the
+      gyroscope goes on turning the attitude.
     """
 
     def __init__(
@@ -43,11 +48,13 @@ class Pipeline:
         correction: Correction | None = None,
         use_mag: bool = True,
         origin: Sequence[float] | None = None,
+        spike_mask: bool = False,
     ) -> None:
         self.filter_name = filter_name
         self.filter: Filter = FILTERS[filter_name](params)
         self.correction = correction if correction is not None else Correction()
         self.use_mag = use_mag
+        self.spike_mask = spike_mask
         self.origin: Quat | None = None
         self.set_origin(origin)
         self.mag_updates = 0  # new field measurements fed to the filter
@@ -57,6 +64,7 @@ class Pipeline:
         self._t = np.nan  # of the last row fed
         self._raw_mag: NDArray[np.float64] = np.full(3, np.nan)  # of the last row fed
         self._strange = False  # the last field seen was not the earth's
+        self._mask = SpikeMask()
 
     @property
     def params(self) -> Any:
@@ -80,6 +88,7 @@ class Pipeline:
         self.mag_updates, self.mag_refused = other.mag_updates, other.mag_refused
         self.skipped, self.restarts = other.skipped, other.restarts
         self._t, self._raw_mag, self._strange = other._t, other._raw_mag, other._strange
+        self._mask.restore(other._mask.state())
         if self.filter_name == other.filter_name and self.correction == other.correction:
             self.filter.restore(other.filter.state())
         elif not np.isnan(other._t):
@@ -90,21 +99,24 @@ class Pipeline:
         """Begin again from the next sample's accelerometer and field: what comes does not follow what was."""
         self.filter = FILTERS[self.filter_name](self.params)
         self._t, self._raw_mag, self._strange = np.nan, np.full(3, np.nan), False
+        self._mask = SpikeMask()
         self.restarts += 1
 
     def settings(self) -> dict[str, Any]:
-        """All that was chosen, as plain values: filter, parameters, correction, magnetometer, origin."""
+        """All that was chosen, as plain values: filter, parameters, correction, magnetometer, origin, spike mask."""
         return {
             "filter": self.filter_name,
             "params": asdict(self.params),
             "correction": asdict(self.correction),
             "use_mag": self.use_mag,
             "origin": self.origin,
+            "spike_mask": self.spike_mask,
         }
 
     def state(self) -> dict[str, Any]:
         """All that the next step depends on, as plain values; ``from_state`` continues from it bit for bit."""
         kept = {"t": float(self._t), "raw_mag": self._raw_mag.tolist(), "strange": self._strange}
+        kept["mask"] = self._mask.state()
         return {"settings": self.settings(), "state": self.filter.state(), **kept}
 
     @classmethod
@@ -113,6 +125,7 @@ class Pipeline:
         params = FILTERS[settings["filter"]].Params(**settings["params"])
         correction = Correction(**settings["correction"])
         pipeline = cls(settings["filter"], params, correction, bool(settings["use_mag"]))
+        pipeline.spike_mask = bool(settings.get("spike_mask", False))  # older recordings know of none
         if settings["origin"] is not None:
             w, x, y, z = map(float, settings["origin"])  # not normalised again, which would change the last digit
             pipeline.origin = (w, x, y, z)
@@ -126,6 +139,8 @@ class Pipeline:
         pipeline._t = np.float64(state["t"])
         pipeline._raw_mag = np.array(state["raw_mag"], float).reshape(3)
         pipeline._strange = bool(state["strange"])
+        if "mask" in state:
+            pipeline._mask.restore(state["mask"])
         return pipeline
 
     def step(self, rows: Rows) -> Rows:
@@ -141,7 +156,8 @@ class Pipeline:
         norm = length(np.clip(corrected["mag"], -LARGEST_FIELD, LARGEST_FIELD))
         fresh, fed = self._fields(rows["mag"], norm, good)
         self.mag_refused += int((fresh & ~fed).sum()) if self.use_mag else 0
-        out["mag_used"] = fed & self.use_mag
+        self._mask_spikes(rows, good, out)
+        out["mag_used"] = fed & ~out["masked"] & self.use_mag
         self.mag_updates += int(out["mag_used"].sum())
         self._fuse(corrected, good, out)
         out["disturbed"] |= self._not_earths(norm)
@@ -149,6 +165,11 @@ class Pipeline:
         origin = self.origin
         out["local"] = out["quat"] if origin is None else multiply(conjugate(origin), out["quat"])
         return out
+
+    def steps(self, rows: Rows) -> Iterator[Rows]:
+        """The same for many SAMPLE rows, piece by piece: what fits in the processor's cache is worked on sooner."""
+        for start in range(0, len(rows), PIECE):
+            yield self.step(rows[start : start + PIECE])
 
     def _fields(self, raw: NDArray[np.float64], norm: NDArray[np.float64], good: Flags) -> tuple[Flags, Flags]:
         """Which rows carry a new field measurement, and which of these (norms in uT) are fed."""
@@ -168,25 +189,22 @@ class Pipeline:
         self._strange = bool(held[-1])
         return np.asarray(held[1:])
 
+    def _mask_spikes(self, rows: Rows, good: Flags, out: Rows) -> None:
+        """Say where the button moves, and show the force before it there."""
+        if self.spike_mask:
+            chosen = rows[good]
+            out["masked"][good], out["acc"][good] = self._mask.step(chosen["t"], chosen["status"], out["acc"][good])
+
     def _fuse(self, rows: Rows, good: Flags, out: Rows) -> None:
         """Run the filter over the good rows and write what it says; the other rows hold what was said before."""
-        filter_, update = self.filter, self.filter.update
-        quats, biases, rests, disturbances = [filter_.quat], [filter_.bias], [filter_.rest], [filter_.disturbed]
         chosen = rows[good]
         dts = np.diff(chosen["t"], prepend=self._t)
-        fields = zip(chosen["mag"].tolist(), out["mag_used"][good].tolist(), strict=True)
-        samples = zip(chosen["gyr"].tolist(), chosen["acc"].tolist(), fields, dts.tolist(), strict=True)
-        for gyr, acc, (mag, new), dt in samples:
-            if not -MAX_DT <= dt <= MAX_DT:  # a gap, or NaN before the very first
-                dt = self._restart(acc, dt)
-            update(gyr, acc, mag if new else None, dt)
-            quats.append(filter_.quat)
-            biases.append(filter_.bias)
-            rests.append(filter_.rest)
-            disturbances.append(filter_.disturbed)
+        acc = np.where(out["masked"][good, None], 0.0, chosen["acc"]) if self.spike_mask else chosen["acc"]
+        samples = chosen["gyr"], acc, chosen["mag"], out["mag_used"][good], dts
+        said = run(self.filter, *samples, self._restart)
         shown = np.cumsum(good)
-        for name, said in (("quat", quats), ("bias", biases), ("rest", rests), ("disturbed", disturbances)):
-            out[name] = np.array(said)[shown]
+        for name, values in zip(SAID, said, strict=True):
+            out[name] = values[shown]
         if len(chosen):
             self._t = chosen["t"][-1]
 

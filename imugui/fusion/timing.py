@@ -43,7 +43,8 @@ class LineFit:
     def add(self, n: float, t: float) -> None:
         """Add the arrival at host time t (s) of sample number n."""
         passed = 0.0 if self.arrivals == 0 else max(0.0, t - self._last_t)
-        fade = math.exp(-passed / MEMORY_S)
+        # a long silence teaches nothing: without this limit it would wipe out the slope
+        fade = math.exp(-min(passed / MEMORY_S, 1.0))
         self._last_t = t
         self.span_s += passed
         self.arrivals += 1
@@ -66,7 +67,7 @@ class LineFit:
 
     @property
     def settled(self) -> bool:
-        return self.span_s >= SETTLE_S and self.arrivals >= SETTLE_ARRIVALS and self._nn > 0.0 and self._nt > 0.0
+        return self.span_s >= SETTLE_S and self.arrivals >= SETTLE_ARRIVALS and self.period > 0.0
 
     @property
     def period(self) -> float:
@@ -131,7 +132,7 @@ class ArrivalClock:
     def _spread(self, arrival: float, n: int) -> NDArray[np.float64]:
         """Before the rate is known: an arrival's samples lie evenly between the arrival before and this one."""
         if math.isnan(self._t):
-            return np.full(n, arrival)
+            return np.asarray(arrival - 1e-6 * np.arange(n - 1, -1, -1), float)  # no two at one time
         end = max(arrival, self._t + 1e-6 * n)
         return self._t + (end - self._t) * np.arange(1, n + 1) / n
 

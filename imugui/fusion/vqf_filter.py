@@ -24,6 +24,8 @@ from imugui.fusion.scalar import (
     sane,
     turned_in_sensor,
 )
+from imugui.fusion.stretches import Said
+from imugui.fusion.vqf_block import EVEN, MOST, Flags, Floats, follow, plain
 from imugui.fusion.vqf_params import VqfParams, library_arguments
 from imugui.fusion.vqf_spacing import Spacing, carried_over
 
@@ -89,7 +91,10 @@ class Vqf:
     def _feed(self, gyr: Sequence[float], acc: Sequence[float], mag: Sequence[float] | None, scale: float) -> None:
         library, g, a = self._library, self._gyr, self._acc
         bx, by, bz = self.bias
-        g[0], g[1], g[2] = bx + (gyr[0] - bx) * scale, by + (gyr[1] - by) * scale, bz + (gyr[2] - bz) * scale
+        if abs(scale - 1.0) < EVEN:
+            g[0], g[1], g[2] = gyr
+        else:
+            g[0], g[1], g[2] = bx + (gyr[0] - bx) * scale, by + (gyr[1] - by) * scale, bz + (gyr[2] - bz) * scale
         a[0], a[1], a[2] = acc
         if mag is None:
             library.update(g, a)
@@ -103,6 +108,40 @@ class Vqf:
         bx, by, bz = library.getBiasEstimate()[0].tolist()
         self.bias = (bx, by, bz)
         self.rest = library.getRestDetected()
+
+    def update_block(self, gyr: Floats, acc: Floats, mag: Floats, new: Flags, dts: Floats) -> Said | tuple[()]:
+        """Take as many of the first samples, arrays (n, 3) and (n,), as the library can at once: () for none.
+
+        What ``update`` would say after each comes back, the same to the last digit.
+        """
+        if self._library is None or self._fields == 1:
+            return ()
+        n = plain(gyr, acc, mag, new, dts[:MOST] / self._ts)
+        dts, new = dts[:n], new[:n]
+        spacings = self._spacing, self._mag_spacing
+        first_field = self._fields == 0 and bool(new.any())
+        after = follow(*spacings, self._ts, self._mag_ts, self._mag_age, dts, new) if n and not first_field else None
+        if after is None:
+            return ()
+        self._spacing.restore(after[0])
+        self._mag_spacing.restore(after[1])
+        self._mag_age, self._fields = after[2], self._fields + int(new.sum())
+        return self._feed_block(np.ascontiguousarray(gyr[:n]), np.ascontiguousarray(acc[:n]), mag[:n], new)
+
+    def _feed_block(self, gyr: Floats, acc: Floats, mag: Floats, new: Flags) -> Said:
+        library, before = self._library, self.disturbed
+        known = library.getMagRefNorm() > 0.0
+        out = library.updateBatch(gyr, acc, np.where(new[:, None], mag, 0.0))  # it passes over fields of zeros
+        found = out["magDistDetected"]
+        # as long as it has no reference it says disturbed, and is not believed
+        disturbed = found & (known | np.logical_or.accumulate(~found))
+        if not new.all():
+            disturbed = np.where(np.logical_or.accumulate(new), disturbed, before)
+        rest = out["restDetected"]
+        self.quat, (bx, by, bz) = _quat(out["quat9D"][-1]), out["bias"][-1].tolist()
+        self.bias, self.rest, self.disturbed = (bx, by, bz), bool(rest[-1]), bool(disturbed[-1])
+        unknown = np.full(len(rest), np.nan)
+        return out["quat9D"], out["bias"], rest, disturbed, unknown, unknown
 
     def _follow_spacing(self, dt: float, new_field: bool) -> None:
         """Build the library anew when samples or fields have come at another spacing for a while."""

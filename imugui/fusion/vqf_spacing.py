@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 DEPARTURE = 0.06  # relative; a smaller one changes the gains by less than matters
 WINDOW = 1.0  # s
 
@@ -26,6 +29,23 @@ class Spacing:
         self._window = min(WINDOW, 4.0 * self._time)
         self._time, self._count = 0.0, 0
         return mean if abs(mean - assumed) > DEPARTURE * assumed else None
+
+    def walked(self, dts: NDArray[np.float64], assumed: float) -> dict[str, Any] | None:
+        """The state after spacings (n,) in s, each taken as by ``departed``; None when one of them would depart."""
+        window, time, count, at = self._window, self._time, self._count, 0
+        while at < len(dts):
+            # added one after the other: np.sum would round differently
+            times = np.add.accumulate(np.concatenate(([time], dts[at:])))[1:]
+            full = (times >= window) & (times > 0.0)
+            if not full.any():
+                time, count = float(times[-1]), count + len(times)
+                break
+            k = int(np.argmax(full))
+            time, count, at = float(times[k]), count + k + 1, at + k + 1
+            if abs(time / count - assumed) > DEPARTURE * assumed:
+                return None
+            window, time, count = min(WINDOW, 4.0 * time), 0.0, 0
+        return {"_window": window, "_time": time, "_count": count}
 
     def state(self) -> dict[str, Any]:
         """Everything that the next call depends on, as plain numbers."""

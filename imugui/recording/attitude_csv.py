@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+from array import array
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,8 @@ from imugui.recording.csv_files import ATTITUDE_COLUMNS
 from imugui.samples import ATTITUDE, Rows, empty_rows
 
 COLUMNS = ATTITUDE_COLUMNS.count(",") + 1
+LONGEST_LINE = 4096
+"""bytes; ours have about 150, the description before them about 1000."""
 
 
 def attitude_lines(rows: Rows) -> str:
@@ -25,20 +29,25 @@ def attitude_lines(rows: Rows) -> str:
     )
 
 
+def bounded_lines(path: Path, longest: int) -> Iterator[str]:
+    """The lines of a text file with their ends; of a line of more bytes than ``longest`` pieces without. OSError."""
+    with path.open("rb") as stream:
+        while line := stream.readline(longest):
+            yield line.decode("utf-8", "replace")
+
+
 def read_attitude(path: Path) -> tuple[Rows, int]:
     """ATTITUDE rows, shape (n,), with time, quaternion and flags; how many lines were damaged. No file, no rows."""
-    values: list[tuple[float, ...]] = []
+    values = array("d")  # flat: hours of tuples would not fit in memory
     bad = 0
     try:
-        with path.open(encoding="utf-8", errors="replace") as stream:
-            for line in itertools.dropwhile(lambda text: text.startswith(("#", "t,")), stream):
-                row = _row(line)
-                bad += row is None
-                if row is not None:
-                    values.append(row)
+        for line in itertools.dropwhile(lambda text: text.startswith(("#", "t,")), bounded_lines(path, LONGEST_LINE)):
+            row = _row(line)
+            bad += row is None
+            values.extend(row or ())
     except OSError:
         return empty_rows(ATTITUDE, 0), 1
-    table = np.array(values, float).reshape(-1, COLUMNS)
+    table = np.frombuffer(values, float).reshape(-1, COLUMNS)
     rows = empty_rows(ATTITUDE, len(table))
     rows["t"], rows["quat"] = table[:, 0], table[:, 1:5]
     rows["rest"], rows["disturbed"] = table[:, 8] != 0.0, table[:, 9] != 0.0

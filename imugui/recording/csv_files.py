@@ -14,12 +14,15 @@ import numpy as np
 
 from imugui.formats import FORMATS, Decoder, Options
 from imugui.formats.layout import TableError
-from imugui.formats.plan import read_foreign
 from imugui.fusion.attitude import euler
+from imugui.recording.fixed_point import table
 from imugui.samples import Rows
 
 ATTITUDE_COLUMNS = "t,qw,qx,qy,qz,roll_deg,pitch_deg,yaw_deg,rest,disturbed"
-BLOCK = 1 << 18
+ATTITUDE_DECIMALS = (6, 9, 9, 9, 9, 4, 4, 4, 0, 0)
+BLOCK = 1 << 17
+LARGEST = 4 << 30
+"""bytes; a day at 200 Hz has 3 GB."""
 
 Watch = Callable[[float], None]
 """Is told the share (0 to 1) that is done; raises UnreadableError to give up."""
@@ -50,6 +53,8 @@ def read_samples(
     A file without times gets ``t`` = k / rate_hz (0: the usual rate of its format). ``watch`` is told the share that
     was read. Raises UnreadableError and OSError.
     """
+    from imugui.formats.plan import read_foreign  # start-up time
+
     options = options or Options()
     try:
         found = read_foreign(path, options, rate_hz, watch) if name == "auto" or options.tables else name
@@ -71,8 +76,13 @@ def read_samples(
 
 
 def chunks_of(path: Path, watch: Watch | None = None) -> Iterator[bytes]:
-    """The bytes of a file in blocks, telling ``watch`` the share that was read; raises OSError, and what it raises."""
+    """The bytes of a file in blocks, telling ``watch`` the share that was read; raises OSError, and what it raises.
+
+    UnreadableError: more than fits in memory.
+    """
     size = max(1, path.stat().st_size)
+    if size > LARGEST:
+        raise UnreadableError(f"{path}: larger than {LARGEST >> 30} GB, too much to open at once: cut it into pieces")
     with path.open("rb") as stream:
         while chunk := stream.read(BLOCK):
             yield chunk
@@ -80,12 +90,14 @@ def chunks_of(path: Path, watch: Watch | None = None) -> Iterator[bytes]:
                 watch(stream.tell() / size)
 
 
-def write_attitude(path: Path, rows: Rows, metadata: Mapping[str, object]) -> None:
-    """Write ATTITUDE rows, shape (n,), as the attitude CSV; raises OSError."""
-    yaw, pitch, roll = np.rad2deg(euler(rows["quat"])).T
-    values = np.column_stack((rows["t"], rows["quat"], roll, pitch, yaw, rows["rest"], rows["disturbed"]))
-    pattern = "%.6f,%.9f,%.9f,%.9f,%.9f,%.4f,%.4f,%.4f,%d,%d\n"
-    _write(path, metadata, ATTITUDE_COLUMNS, (pattern % tuple(row) for row in values.tolist()))
+def write_attitude(path: Path, blocks: Iterable[Rows], metadata: Mapping[str, object]) -> None:
+    """Write blocks of ATTITUDE rows, shape (n,), as the attitude CSV; raises OSError, and what making one raises."""
+    with path.open("wb") as stream:
+        stream.write("".join((*_comments(metadata), ATTITUDE_COLUMNS, "\n")).encode())
+        for rows in blocks:
+            yaw, pitch, roll = np.rad2deg(euler(rows["quat"])).reshape(-1, 3).T
+            columns = rows["t"], *rows["quat"].T, roll, pitch, yaw, rows["rest"] + 0.0, rows["disturbed"] + 0.0
+            stream.write(table(columns, ATTITUDE_DECIMALS))
 
 
 def write_samples(path: Path, rows: Rows, metadata: Mapping[str, object]) -> None:
@@ -95,13 +107,6 @@ def write_samples(path: Path, rows: Rows, metadata: Mapping[str, object]) -> Non
     with path.open("w", encoding="utf-8", newline="") as stream:
         stream.writelines(_comments(metadata))
         stream.write(header + body)
-
-
-def _write(path: Path, metadata: Mapping[str, object], header: str, lines: Iterable[str]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as stream:
-        stream.writelines(_comments(metadata))
-        stream.write(header + "\n")
-        stream.writelines(lines)
 
 
 def _comments(metadata: Mapping[str, object]) -> Iterable[str]:

@@ -18,6 +18,7 @@ COLUMNS = 160  # of the preview
 WHOLE_BYTES = 64_000_000  # a larger file is looked at in places
 LOOKS, LOOK_BYTES = 800, 2048  # so many, each so long
 TAIL_BYTES = 4096
+LONGEST_LINE = 1 << 16
 GAP_PERIODS, GAP_MIN_S = 3.5, 0.02  # a longer step is a gap, as on the status line
 UNKNOWN = -1
 
@@ -84,9 +85,9 @@ def _table(path: Path) -> tuple[NDArray[np.float64], bool]:
     """(time s, |gyr| rad/s) of the samples, shape (n, 2), and whether these are all."""
     size = path.stat().st_size
     with path.open("rb") as stream:
-        head = stream.readline()
+        head = stream.readline(LONGEST_LINE)
         while head.startswith(b"#"):
-            head = stream.readline()
+            head = stream.readline(LONGEST_LINE)
         names = head.decode("ascii", "replace").strip().split(",")
         places = [names.index(name) if name in names else None for name in ("t", "gx", "gy", "gz")]
         whole = size <= WHOLE_BYTES

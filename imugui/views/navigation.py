@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtWidgets import QButtonGroup, QFrame, QToolButton, QVBoxLayout
 
-from imugui.views import theme
-from imugui.views.view import View
+from imugui.views import Page, theme
 
 WIDTH = 90
 
@@ -18,7 +17,7 @@ class Navigation(QFrame):
 
     chosen = Signal(str)  # key of the page
 
-    def __init__(self, pages: Mapping[str, type[View]]) -> None:
+    def __init__(self, pages: Mapping[str, Page]) -> None:
         super().__init__()
         self.setProperty("role", "rail")
         self.setAccessibleName("Pages")
@@ -47,7 +46,7 @@ class Navigation(QFrame):
         if event.type() == QEvent.Type.PaletteChange:
             self._paint_icons()
 
-    def _button(self, name: str, page: type[View], number: int) -> QToolButton:
+    def _button(self, name: str, page: Page, number: int) -> QToolButton:
         button = QToolButton()
         button.setProperty("role", "rail")
         button.setText(page.title)

@@ -9,7 +9,18 @@ import functools
 from dataclasses import dataclass
 
 from PySide6.QtCore import QByteArray, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QIcon, QPainter, QPalette, QPen, QPixmap
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontDatabase,
+    QGuiApplication,
+    QIcon,
+    QImage,
+    QPainter,
+    QPalette,
+    QPen,
+    QPixmap,
+)
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QApplication
 
@@ -168,24 +179,24 @@ def icon(name: str, colour: QColor | None = None) -> QIcon:
     plain = colour or palette().text
     result = QIcon()
     for mode, shown in ((QIcon.Mode.Normal, plain), (QIcon.Mode.Disabled, mix(plain, palette().window, 0.6))):
-        renderer = QSvgRenderer(_coloured_svg(name, shown))
-        for size in _ICON_SIZES:
-            result.addPixmap(_drawn(renderer, size), mode)
+        for image in _drawn(name, shown.name()):
+            result.addPixmap(QPixmap.fromImage(image), mode)
     return result
 
 
-def _coloured_svg(name: str, colour: QColor) -> QByteArray:
+@functools.cache  # a window has two hundred icons, most of them alike, and drawing one takes milliseconds
+def _drawn(name: str, colour: str) -> tuple[QImage, ...]:
     text = (paths.resources() / "icons" / f"{name}.svg").read_text(encoding="utf-8")
-    return QByteArray(text.replace("currentColor", colour.name()).encode())
-
-
-def _drawn(renderer: QSvgRenderer, size: int) -> QPixmap:
-    pixmap = QPixmap(size, size)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(pixmap)
-    renderer.render(painter, QRectF(0, 0, size, size))
-    painter.end()
-    return pixmap
+    renderer = QSvgRenderer(QByteArray(text.replace("currentColor", colour).encode()))
+    images = []
+    for size in _ICON_SIZES:
+        image = QImage(size, size, QImage.Format.Format_ARGB32_Premultiplied)
+        image.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(image)
+        renderer.render(painter, QRectF(0, 0, size, size))
+        painter.end()
+        images.append(image)
+    return tuple(images)
 
 
 def mix(a: QColor, b: QColor, share: float) -> QColor:

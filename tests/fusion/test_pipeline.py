@@ -54,7 +54,9 @@ def test_rows_come_out_complete(ideal_rows: IdealRows, name: str) -> None:
     assert out["local"].tobytes() == out["quat"].tobytes()
     assert np.allclose(out["gyr"], rows["gyr"] - out["bias"])
     assert np.isnan(out["t_publish"]).all()
-    assert np.isnan(out["sigma_tilt"]).all()
+    for column in ("sigma_tilt", "sigma_heading"):
+        known = (out[column] > 0.0) & (out[column] < 0.2)
+        assert known.all() if name == "imugui" else np.isnan(out[column]).all()
     assert out["mag_used"].all()
     assert not out["disturbed"].any()
     assert counts(pipeline) == (2000, 0, 0, 0)

@@ -28,7 +28,7 @@ from imugui import fusion
 from imugui.fusion.pipeline import Pipeline
 from imugui.fusion.vqf_params import VqfParams
 from imugui.samples import SAMPLE, empty_rows
-assert list(fusion.FILTERS) == ["madgwick", "mahony", "complementary"], fusion.FILTERS
+assert list(fusion.FILTERS) == ["imugui", "madgwick", "mahony", "complementary"], fusion.FILTERS
 assert fusion.DEFAULT_FILTER == "madgwick"
 rows = empty_rows(SAMPLE, 3)
 rows["t"], rows["gyr"], rows["acc"] = np.arange(3.0), 0.0, (0.0, 0.0, 9.8)

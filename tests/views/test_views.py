@@ -11,7 +11,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QApplication, QComboBox, QLineEdit, QWidget
 
 from imugui import paths
-from imugui.views import VIEWS, theme
+from imugui.views import PAGES, VIEWS, theme
 from imugui.views.settings_store import SettingsStore
 from imugui.views.view import View
 from imugui.workers.session import Session
@@ -42,6 +42,15 @@ def test_pages_have_a_name_an_icon_and_a_tip() -> None:
         assert page.tip
         assert (paths.resources() / "icons" / f"{page.icon}.svg").is_file()
     assert len({page.title for page in VIEWS.values()}) == len(VIEWS)
+
+
+def test_the_table_of_pages_says_what_the_pages_say() -> None:
+    for name, page in PAGES.items():
+        view = VIEWS[name]
+        assert (page.title, page.icon, page.tip, page.at_foot) == (view.title, view.icon, view.tip, view.at_foot)
+
+
+def test_the_live_page_is_first() -> None:
     assert next(iter(VIEWS)) == "live"
 
 
