@@ -8,10 +8,16 @@ from __future__ import annotations
 
 from imugui.fusion.complementary import Complementary
 from imugui.fusion.filter import Filter
+from imugui.fusion.imugui_filter import Imugui
 from imugui.fusion.madgwick import Madgwick
 from imugui.fusion.mahony import Mahony
 
-FILTERS: dict[str, type[Filter]] = {"madgwick": Madgwick, "mahony": Mahony, "complementary": Complementary}
+FILTERS: dict[str, type[Filter]] = {
+    "imugui": Imugui,
+    "madgwick": Madgwick,
+    "mahony": Mahony,
+    "complementary": Complementary,
+}
 
 VQF_MISSING = ""
 """A sentence for the screen where the best filter is missing; empty where it is there."""

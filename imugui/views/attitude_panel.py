@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout
 from imugui.fusion.attitude import CONVENTIONS, euler, euler_reliable
 from imugui.views.controls import clear
 from imugui.views.labels import Chip, heading, muted
-from imugui.views.live_words import UNRELIABLE, quat_words, shown_quat
+from imugui.views.live_words import UNRELIABLE, quat_words, shown_quat, sigma_words
 from imugui.views.readout import Readout
 
 ANGLES = {"Yaw": 2, "Pitch": 1, "Roll": 0}
@@ -28,6 +28,9 @@ class AttitudePanel(QFrame):
         self.quat = muted(NO_QUAT)
         self.quat.setWordWrap(False)
         self.quat.setToolTip("The shown attitude as a quaternion")
+        self.sigma = muted("")
+        self.sigma.setToolTip("How far tilt and heading may be off, 1 sigma, as the filter itself says")
+        self.sigma.hide()
         head = QHBoxLayout()
         head.addWidget(heading("Attitude"))
         head.addStretch(1)
@@ -40,6 +43,7 @@ class AttitudePanel(QFrame):
         column.addLayout(head)
         column.addLayout(self._numbers)
         column.addWidget(self.quat)
+        column.addWidget(self.sigma)
         self.set_display(convention, decimals)
 
     def set_display(self, convention: str, decimals: int) -> None:
@@ -60,6 +64,12 @@ class AttitudePanel(QFrame):
             doubt = "" if reliable or name == "Pitch" else UNRELIABLE
             self.readouts[name].set_value(float(angle), doubt)
         self.quat.setText(quat_words(shown))
+
+    def show_sigma(self, tilt: float, heading: float) -> None:
+        """What the filter says of its own error, rad; nothing is shown for a filter that says nothing (NaN)."""
+        words = sigma_words(tilt, heading)
+        self.sigma.setText(words)
+        self.sigma.setVisible(bool(words))
 
     def blank(self) -> None:
         """There is no attitude."""

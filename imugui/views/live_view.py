@@ -84,6 +84,7 @@ class LiveView(View):
         rows = self.session.shown.last(1)
         alive = len(rows) > 0 and not self._stale_word(rows)
         if alive:
+            self.angles.show_sigma(float(rows["sigma_tilt"][0]), float(rows["sigma_heading"][0]))
             self.heading.show_flags(status, bool(rows["rest"][0]))
         self._stack.setCurrentIndex(0 if status.state is State.IDLE and not alive else 1)
         self.filter.refresh()

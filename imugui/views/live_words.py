@@ -72,3 +72,9 @@ def origin_words(set_s_ago: float) -> str:
 def quat_words(quat: NDArray[np.float64]) -> str:
     """A quaternion (4,) with the digits a cheap board deserves: a step of 0.001 is a tenth of a degree."""
     return "  ".join(f"{name} {value:+.3f}".replace("-", "−") for name, value in zip("wxyz", quat, strict=True))
+
+
+def sigma_words(tilt: float, heading: float) -> str:
+    """The filter's own 1 sigma, rad, in degrees with two digits at most; "" where it says none."""
+    said = [(name, math.degrees(value)) for name, value in (("tilt", tilt), ("heading", heading)) if value == value]
+    return "  ".join(f"{name} ±{degrees:.1f}°" if degrees < 10.0 else f"{name} ±{degrees:.0f}°" for name, degrees in said)

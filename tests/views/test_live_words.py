@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from imugui.fusion.attitude import CONVENTIONS, euler, from_euler
-from imugui.views.live_words import heading_reason, origin_words, quat_words, shown_quat, stale_word
+from imugui.views.live_words import heading_reason, origin_words, quat_words, shown_quat, sigma_words, stale_word
 from imugui.workers.session import State, Status
 
 
@@ -74,3 +74,16 @@ def test_origin_words(age_s: float, words: str) -> None:
 
 def test_quat_words() -> None:
     assert quat_words(np.array([0.5, -0.5, 0.0, 0.70712])) == "w +0.500  x −0.500  y +0.000  z +0.707"
+
+
+@pytest.mark.parametrize(
+    ("tilt_deg", "heading_deg", "words"),
+    [
+        (0.42, 1.26, "tilt ±0.4°  heading ±1.3°"),
+        (0.42, 37.4, "tilt ±0.4°  heading ±37°"),
+        (0.42, math.nan, "tilt ±0.4°"),
+        (math.nan, math.nan, ""),
+    ],
+)
+def test_the_filters_own_error_shows_no_digit_too_many(tilt_deg: float, heading_deg: float, words: str) -> None:
+    assert sigma_words(math.radians(tilt_deg), math.radians(heading_deg)) == words
