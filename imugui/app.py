@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 from pathlib import Path
-from types import TracebackType
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Slot
 from PySide6.QtGui import QGuiApplication, QIcon
@@ -20,18 +20,19 @@ from PySide6.QtWidgets import QApplication
 from imugui import paths, settings
 from imugui.calibration.profile_store import ProfileStore
 from imugui.cli import fail, write_report
+from imugui.crash import CrashReport
 from imugui.fields import from_mapping
 from imugui.fusion import DEFAULT_FILTER, FILTERS
-from imugui.simulation.pty_board import PtyBoard
-from imugui.simulation.pty_port import PtyPort
-from imugui.simulation.wire import real_board
 from imugui.views import VIEWS
 from imugui.views.main_window import MainWindow
 from imugui.views.settings_store import SettingsStore
 from imugui.workers.headless import report, spin
 from imugui.workers.session import Session, Source, State
 
-SWITCH_S = 0.001
+if TYPE_CHECKING:
+    from imugui.simulation.pty_port import PtyPort
+
+SWITCH_S = 0.0002
 """How soon a painting window hands the interpreter to the reader and fusion threads, s."""
 
 COLLECT_MS = 500
@@ -47,7 +48,8 @@ def run_window(arguments: argparse.Namespace) -> int:
     log = start_log(folder)
     session = make_session(store)
     window = MainWindow(session, store)
-    catch_exceptions(window, log)
+    crash = CrashReport(log, window.show_message)
+    crash.install()
     window.show()
     source = wanted_source(arguments)
     if source is not None and source.transport == "replay":
@@ -58,6 +60,7 @@ def run_window(arguments: argparse.Namespace) -> int:
         return app.exec()
     finally:
         session.close()
+        crash.remove()
 
 
 def make_application() -> QApplication:
@@ -97,12 +100,15 @@ def make_session(store: SettingsStore) -> Session:
     kept = store.store.settings
     name = kept.filter if kept.filter in FILTERS else DEFAULT_FILTER
     params, _ = from_mapping(FILTERS[name].Params, store.store.filters.get(name, {}))
-    return Session(name, params, kept.use_mag, ProfileStore(paths.user_folder() / "profiles"))
+    session = Session(name, params, kept.use_mag, ProfileStore(paths.user_folder() / "profiles"))
+    session.set_spike_mask(kept.spike_mask)
+    return session
 
 
 def wanted_source(arguments: argparse.Namespace) -> Source | None:
     """What the command line asks to open at once."""
-    places = {"serial": arguments.port, "replay": arguments.recording, "simulator": arguments.simulate}
+    places = {"serial": arguments.port, "ble": arguments.ble, "replay": arguments.recording}
+    places["simulator"] = arguments.simulate
     return next((Source(kind, place) for kind, place in places.items() if place), None)
 
 
@@ -119,21 +125,6 @@ def start_log(folder: Path) -> Path | None:
     return path
 
 
-def catch_exceptions(window: MainWindow, log: Path | None) -> None:
-    """A defect is logged and said once at a time; the program and its recording go on."""
-
-    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-        if issubclass(kind, KeyboardInterrupt):
-            QApplication.quit()
-            return
-        logging.getLogger("imugui").critical("uncaught", exc_info=(kind, error, trace))
-        sys.__excepthook__(kind, error, trace)
-        where = f"Details are in {log}." if log else "It could not be logged."
-        window.show_message("error", f"A defect in imugui: {kind.__name__}: {error}. {where} Data keep coming in.")
-
-    sys.excepthook = hook
-
-
 def run_demo(out: Path, seconds: float) -> int:
     """Virtual board -> pseudo-terminal -> serial reader -> fusion -> pages; report.json and a screenshot of each."""
     if "QT_QPA_PLATFORM" not in os.environ:
@@ -142,6 +133,8 @@ def run_demo(out: Path, seconds: float) -> int:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         return fail(f"{out}: {error.strerror}")
+    from imugui.simulation.pty_port import PtyPort  # start-up time
+
     app = make_application()
     session = Session()
     window = MainWindow(session, SettingsStore(out / settings.FILE_NAME))
@@ -168,6 +161,9 @@ def run_demo(out: Path, seconds: float) -> int:
 
 def demo_source(port: PtyPort, stop: threading.Event) -> Source:
     """A virtual board on a pseudo-terminal, fed by a thread of its own; without one where there are none."""
+    from imugui.simulation.pty_board import PtyBoard
+    from imugui.simulation.wire import real_board
+
     try:
         port.open()
     except OSError:

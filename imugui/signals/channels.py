@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from imugui.fusion.attitude import CONVENTIONS, display_quat, euler, gravity
 from imugui.fusion.quaternion import conjugate, length, multiply
-from imugui.samples import GRAVITY, Rows
+from imugui.samples import GRAVITY, NO_STATUS, Rows
 from imugui.signals.history import LONGEST_WINDOW_S
 
 Floats = NDArray[np.float64]
@@ -67,6 +67,7 @@ UNITS: dict[str, tuple[Unit, ...]] = {
     "quaternion": (Unit("", "", 1.0, 4, 0.01),),
     "temperature": (Unit("°C", "degC", 1.0, 2, 0.5),),
     "interval": (Unit("ms", "ms", 1e3, 3, 0.2),),
+    "number": (Unit("", "", 1.0, 0, 2.0),),
 }
 """Units by kind; the first is the one shown until the user chooses another."""
 
@@ -108,6 +109,12 @@ QUANTITIES: dict[str, Quantity] = {
     "temp": Quantity(
         "Temperature", "temperature", (Channel("temp.c", "board"),), "Of the board's sensor", corrected=False
     ),
+    "button": Quantity(
+        "Button",
+        "number",
+        (Channel("button.status", "status"), Channel("button.masked", "mask", 0)),
+        "The status byte: 0 idle, else what is pressed. Masked is 1 while the spike mask leaves the accelerometer out",
+    ),
     "interval": Quantity(
         "Sample interval",
         "interval",
@@ -128,7 +135,7 @@ def _keys(*names: str) -> tuple[str, ...]:
 
 SAMPLE_KEYS = _keys(*SENSORS, "temp", "interval")
 """Channels computed from SAMPLE rows, in the order of ``sample_values``."""
-ATTITUDE_KEYS = _keys(*SENSORS, "gravity", "linear", "euler", "quat")
+ATTITUDE_KEYS = _keys(*SENSORS, "gravity", "linear", "euler", "quat", "button")
 """Channels computed from ATTITUDE rows, in the order of ``attitude_values``."""
 
 
@@ -157,8 +164,15 @@ def attitude_values(rows: Rows, convention: str) -> Floats:
             _with_norm(rows["acc"] - down),
             euler(_shown(rows, convention)).T,
             rows["local"].T,
+            _button(rows),
         )
     )
+
+
+def _button(rows: Rows) -> Floats:
+    """Status and mask, shape (2, n); NaN where the board sends no status."""
+    sent = rows["status"] != NO_STATUS
+    return np.where(sent, np.stack((rows["status"], rows["masked"])).astype(float), np.nan)
 
 
 def _with_norm(vectors: Floats) -> Floats:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QFileDialog, QFrame, QHBoxLayout, QVBoxLayout
@@ -12,13 +14,15 @@ from imugui.formats import FORMATS
 from imugui.views.ble_search import BleSearch
 from imugui.views.boards import bare_lines, identity, keep_options, kept_options
 from imugui.views.controls import Button, StillBox
-from imugui.views.file_columns import FileColumns
 from imugui.views.fusion_tools import FusionTools
 from imugui.views.record_tools import RecordLine
 from imugui.views.settings_store import SettingsStore
 from imugui.views.source_box import SourceBox
 from imugui.views.verdict_row import VerdictRow
 from imugui.workers.session import Options, Port, Session, Source, State, Status
+
+if TYPE_CHECKING:
+    from imugui.views.file_columns import FileColumns
 
 AUTO = "auto"
 BAUDS = (9600, 19200, 38400, 57600, 115200, 230400, 250000, 460800, 500000, 921600, 1_000_000, 2_000_000)
@@ -43,7 +47,6 @@ class ConnectionBar(QFrame):
         self.setAccessibleName("Connection")
         self._session = session
         self._settings_store = settings_store
-        self.files = FileColumns(settings_store)
         self._asking = False  # a person is asked for the columns before the file is opened
         self.search = BleSearch(session, self)
         self.source = SourceBox(self.search)
@@ -63,6 +66,13 @@ class ConnectionBar(QFrame):
         self.baud.activated.connect(self._changed)
         self.button.clicked.connect(self.toggle)
         self.verdict.columns_wanted.connect(self.columns_wanted)
+
+    @cached_property
+    def files(self) -> FileColumns:
+        """What is known of the columns of files; made when one is opened, as guessing takes a dozen modules."""
+        from imugui.views.file_columns import FileColumns
+
+        return FileColumns(self._settings_store)
 
     def refresh(self, status: Status) -> None:
         """Show a snapshot."""

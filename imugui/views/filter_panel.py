@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QToolButton, QVBoxLayout, QWidg
 
 from imugui.fusion import FILTERS, VQF_MISSING
 from imugui.views import theme
-from imugui.views.filters import use_magnetometer, use_params
+from imugui.views.filters import use_magnetometer, use_params, use_spike_mask
 from imugui.views.form import Form
 from imugui.views.labels import muted
 from imugui.views.settings_store import SettingsStore
@@ -37,11 +37,16 @@ class FilterPanel(QFrame):
         self.mag.setAccessibleName("Use the magnetometer")
         self.mag.setToolTip("Without it the heading is free to drift, but no iron disturbs it")
         self.mag.toggled.connect(self._mag_toggled)
+        self.spikes = QCheckBox("Mask spikes of the board's button")
+        self.spikes.setAccessibleName("Mask spikes of the board's button")
+        self.spikes.setToolTip("A press shakes the board: for 20 ms the gyroscope alone turns the attitude")
+        self.spikes.toggled.connect(self._mask_toggled)
         self._body = QWidget()
         self._column = QVBoxLayout(self._body)
         self._column.setContentsMargins(12, 8, 0, 4)
         self._column.setSpacing(12)
         self._column.addWidget(self.mag)
+        self._column.addWidget(self.spikes)
         if VQF_MISSING:
             self._column.addWidget(muted(VQF_MISSING))
         column = QVBoxLayout(self)
@@ -58,9 +63,10 @@ class FilterPanel(QFrame):
             self._take_filter()
         elif self.form is not None and self.form.value() != self._session.filter_params:
             self.form.set_value(self._session.filter_params)
-        self.mag.blockSignals(True)
-        self.mag.setChecked(self._session.use_mag)
-        self.mag.blockSignals(False)
+        for box, on in ((self.mag, self._session.use_mag), (self.spikes, self._session.spike_mask)):
+            box.blockSignals(True)
+            box.setChecked(on)
+            box.blockSignals(False)
 
     def _take_filter(self) -> None:
         self._filter = self._session.filter_name
@@ -81,6 +87,10 @@ class FilterPanel(QFrame):
     @Slot(bool)
     def _mag_toggled(self, on: bool) -> None:
         use_magnetometer(self._session, self._settings_store, on)
+
+    @Slot(bool)
+    def _mask_toggled(self, on: bool) -> None:
+        use_spike_mask(self._session, self._settings_store, on)
 
     @Slot(bool)
     def _unfold(self, on: bool) -> None:

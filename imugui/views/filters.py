@@ -29,6 +29,12 @@ def use_params(session: Session, settings_store: SettingsStore, params: Any) -> 
     session.set_filter(session.filter_name, params, session.use_mag)
 
 
+def use_spike_mask(session: Session, settings_store: SettingsStore, on: bool) -> None:
+    """Leave the accelerometer out while the board's button moves, or not."""
+    settings_store.update(spike_mask=on)
+    session.set_spike_mask(on)
+
+
 def use_magnetometer(session: Session, settings_store: SettingsStore, on: bool) -> None:
     """Let the magnetometer correct the heading, or not."""
     settings_store.update(use_mag=on)

@@ -77,4 +77,4 @@ def quat_words(quat: NDArray[np.float64]) -> str:
 def sigma_words(tilt: float, heading: float) -> str:
     """The filter's own 1 sigma, rad, in degrees with two digits at most; "" where it says none."""
     said = [(name, math.degrees(value)) for name, value in (("tilt", tilt), ("heading", heading)) if value == value]
-    return "  ".join(f"{name} ±{degrees:.1f}°" if degrees < 10.0 else f"{name} ±{degrees:.0f}°" for name, degrees in said)
+    return "  ".join(f"{name} ±{degrees:.{int(degrees < 10.0)}f}°" for name, degrees in said)

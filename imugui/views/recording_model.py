@@ -115,7 +115,7 @@ def title_of(path: Path, summary: Summary | None) -> str:
     """When it was made, in local time, and its label."""
     try:
         started = datetime.datetime.fromisoformat(summary.started_utc if summary else "").astimezone()
-    except ValueError:
+    except (ValueError, OverflowError):
         return path.stem
     return "  ".join(filter(None, (f"{started:%Y-%m-%d %H:%M:%S}", summary.label if summary else "")))
 

@@ -130,7 +130,8 @@ def _keyboard() -> QWidget:
     grid.setHorizontalSpacing(20)
     grid.setVerticalSpacing(6)
     grid.setColumnStretch(1, 1)
-    rows = [("1, 2, …", "Bring a page to the front"), *((key.keys, key.words) for key in (*KEYS, *PLOT_KEYS, *GAME_KEYS))]
+    keys = (*KEYS, *PLOT_KEYS, *GAME_KEYS)
+    rows = [("1, 2, …", "Bring a page to the front"), *((key.keys, key.words) for key in keys)]
     rows.append(("Arrows, + and −", "In the picture: look around and zoom; turn the board where it is turned by hand"))
     for row, (keys, words) in enumerate(rows):
         label = QLabel(keys)

@@ -20,6 +20,10 @@ RAW_TIP = (
     "Raw: as the board sent it, in the same units and in the accelerometer's axes. "
     "Gravity, linear acceleration and angles always come from corrected data"
 )
+MASK_TIP = (
+    "Leave the accelerometer out while the board's button moves and 20 ms longer: the gyroscope alone turns the "
+    "attitude. Such stretches are shaded, and the corrected accelerometer holds its value"
+)
 WIDTH = 372
 MARGIN = 16
 INSIDE = WIDTH - 2 * MARGIN + 4  # the scroll bar comes and goes beside it, the numbers keep their places
@@ -34,6 +38,7 @@ class SignalCard(QFrame):
     range_edited = Signal(str, float, float)
     mode_chosen = Signal(str)  # key of MODES
     raw_chosen = Signal(bool)
+    mask_wanted = Signal()
 
     def __init__(self, choice: Choice) -> None:
         super().__init__()
@@ -47,6 +52,9 @@ class SignalCard(QFrame):
         self.data.setFixedWidth(INDENT + SWATCH + NAME + 4)
         self.data.activated.connect(lambda: self.raw_chosen.emit(self.data.currentData()))
         self.modes = {name: _mode_button(name) for name in MODES}
+        self.spikes = Button("Spike mask", MASK_TIP, "toggle_spike_mask", small=True)
+        self.spikes.setCheckable(True)
+        self.spikes.clicked.connect(self.mask_wanted)
         self.heads = Cells()
         self.heads.setEnabled(False)
         self.foot = ElidedLabel()
@@ -73,6 +81,11 @@ class SignalCard(QFrame):
             button.setVisible(name in offered)
             button.setChecked(name == mode)
         self.heads.show_cells(MODES[mode].heads)
+
+    def show_mask(self, offered: bool, on: bool) -> None:
+        """Say whether the spike mask is on; it is offered where the board has a button."""
+        self.spikes.setVisible(offered)
+        self.spikes.setChecked(on)
 
     def show_numbers(self, cells: Mapping[str, tuple[str, ...]], line: str) -> None:
         """Show the numbers of channels, by key; those not given stay empty."""
@@ -102,6 +115,7 @@ class SignalCard(QFrame):
             button.clicked.connect(lambda _=False, name=name: self.mode_chosen.emit(name))
             modes.addWidget(button)
         modes.addStretch(1)
+        modes.addWidget(self.spikes)
         titles = QHBoxLayout()
         titles.setSpacing(4)
         titles.setContentsMargins(0, 0, WIDTH - MARGIN - 2 - INSIDE + UNIT_PAD, 0)

@@ -73,3 +73,4 @@ class Frame:
     cursors: tuple[CursorLine, ...] = ()
     marks: tuple[Mark, ...] = ()
     note: str = ""  # why there is no plot at all
+    bands: tuple[tuple[float, float], ...] = ()  # from column to column, where the accelerometer was masked

@@ -6,6 +6,7 @@ a line. That is twenty times faster than stroking the same curve as a path.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +29,8 @@ DOT = 4.0
 DOTS_FROM = 8.0  # pixels between samples from which on each gets a dot
 RADIUS = 6.0
 TAB = 16.0
+LEAST_BAND = 2.0
+CAP = 3.0
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,19 @@ def paint_back(painter: QPainter, body: Body, x_ticks: Ticks, y_ticks: Ticks) ->
         y = round(body.y(value)) + 0.5
         painter.setPen(theme.pen(colours.line) if value == 0.0 else faint)
         painter.drawLine(QPointF(body.rect.left(), y), QPointF(body.rect.right(), y))
+
+
+def paint_bands(painter: QPainter, body: Body, bands: Sequence[tuple[float, float]]) -> None:
+    """Shade from column to column, at the least so wide that it can be seen, with a cap on top beside the colour."""
+    painter.setPen(Qt.PenStyle.NoPen)
+    colour = theme.tone_colour("warn")
+    for start, end in bands:
+        left, right = max(body.x(start), body.rect.left()), min(body.x(end), body.rect.right())
+        if right < body.rect.left() or left > body.rect.right():
+            continue
+        width = max(right - left, LEAST_BAND)
+        painter.fillRect(QRectF(left, body.rect.top(), width, body.rect.height()), theme.faded(colour, 0.28))
+        painter.fillRect(QRectF(left, body.rect.top(), width, CAP), colour)
 
 
 def paint_y_words(painter: QPainter, body: Body, ticks: Ticks, gutter: float) -> None:

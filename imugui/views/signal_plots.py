@@ -196,6 +196,7 @@ class PlotStack(QWidget):
 
     def _paint_plot(self, painter: QPainter, plot: Plot, body: Body) -> None:
         paint.paint_back(painter, body, self._frame.ticks, plot.ticks)
+        paint.paint_bands(painter, body, self._frame.bands)
         painter.setFont(theme.font("small"))
         paint.paint_y_words(painter, body, plot.ticks, GUTTER)
         paint.paint_head(painter, body, plot, HEAD)

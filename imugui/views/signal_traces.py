@@ -47,6 +47,22 @@ def time_frame(scope: Scope, columns: int, size: tuple[float, float]) -> Frame:
         cursor_lines(cursors, grid),
         cursor_marks(feed, choice, cursors, grid, shown),
         "" if plots else NO_PLOT,
+        masked_bands(feed.corrected, grid),
+    )
+
+
+def masked_bands(history: History, grid: Grid) -> tuple[tuple[float, float], ...]:
+    """From column to column, where the spike mask left the accelerometer out; each reaches to the next sample."""
+    inside = history.span(grid.start, grid.end)
+    rows = slice(max(inside.start - 1, 0), inside.stop + 1)
+    masked = history.values("button.masked")[rows] == 1.0
+    if not masked.any():
+        return ()
+    columns = (history.t[rows] - grid.start) / grid.step
+    edges = np.flatnonzero(np.diff(masked, prepend=False, append=False))
+    last = len(columns) - 1
+    return tuple(
+        (float(columns[start]), float(columns[min(end, last)])) for start, end in edges.reshape(-1, 2).tolist()
     )
 
 

@@ -15,6 +15,7 @@ from imugui.signals.channels import QUANTITIES
 from imugui.signals.scope import Scope
 from imugui.signals.table import Table, make_table
 from imugui.views.empty import EmptyState
+from imugui.views.filters import use_spike_mask
 from imugui.views.live_words import stale_word
 from imugui.views.settings_store import SettingsStore
 from imugui.views.signal_card import SignalCard
@@ -92,6 +93,11 @@ class SignalsView(View):
         """Frequencies instead of time, or back."""
         self.in_spectrum = not self.in_spectrum
         self._mode_follows()
+
+    def toggle_spike_mask(self) -> None:
+        """Leave the accelerometer out while the board's button moves, or not."""
+        use_spike_mask(self.session, self.settings_store, not self.session.spike_mask)
+        self._show_all()
 
     def fit_scales(self) -> None:
         """Take the scales from the data again."""
@@ -216,6 +222,7 @@ class SignalsView(View):
         choice = scope.choice
         self.card.show_liveness(*self._liveness(status))
         self.controls.show_state(scope.held, scope.viewport.window_s, choice.fixed, self.in_spectrum)
+        self.card.show_mask(is_sent(scope.feed.corrected, QUANTITIES["button"].channels), self.session.spike_mask)
         self.card.show_mode(self.mode, self._offered())
         for key, rows in self.card.quantities.items():
             quantity = QUANTITIES[key]
@@ -245,6 +252,7 @@ class SignalsView(View):
             (controls.zoom_wanted, self.zoom),
             (controls.fixed_chosen, shows(scope.set_fixed)),
             (controls.spectrum_wanted, self.toggle_spectrum),
+            (card.mask_wanted, self.toggle_spike_mask),
             (plots.asked, self._asked),
             (plots.panned, lambda share: self._pan(-share)),
             (plots.zoomed, self.zoom),

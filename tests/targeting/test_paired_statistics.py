@@ -200,3 +200,13 @@ def test_groups_without_spread_or_members_have_no_p() -> None:
     assert math.isnan(anova([[1.0, 1.0], [2.0, 2.0]]).p)
     assert math.isnan(anova([[1.0, 2.0]]).p)
     assert math.isnan(anova([[1.0], [2.0]]).p)
+
+
+@pytest.mark.parametrize("df", [1, 5, 20])
+def test_a_huge_t_has_its_noncentrality_at_once(df: int) -> None:
+    """People who all differ by the very same: scipy's sum took minutes for it, and was wrong."""
+    for p in (0.025, 0.975):
+        share = noncentrality(df, 900.0, p) / 900.0
+        for t in (1e3, 1e4, 1e12, 1e300):
+            assert noncentrality(df, t, p) / t == pytest.approx(share, rel=1e-5)
+        assert noncentrality(df, -1e9, 1.0 - p) == pytest.approx(-noncentrality(df, 1e9, p), rel=1e-6)

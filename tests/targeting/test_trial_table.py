@@ -9,10 +9,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from imugui.targeting.trials import COLUMNS, FIELDS, SELECTIONS, TASKS, Trial, read_trials, trial_line, trials_csv
+from imugui.targeting.trials import (
+    COLUMNS,
+    FIELDS,
+    LARGEST,
+    SELECTIONS,
+    TASKS,
+    Trial,
+    read_trials,
+    trial_line,
+    trials_csv,
+)
 
 numbers = st.floats(allow_infinity=False)
-counts = st.integers(-(2**40), 2**40)
+counts = st.integers(-LARGEST, LARGEST)
 vectors = st.tuples(numbers, numbers, numbers)
 words = st.text(st.characters(exclude_characters="\r\n", exclude_categories=["Cs"]), max_size=12)
 KINDS = {"str": words, "int": counts, "float": numbers, "bool": st.booleans(), "Vector": vectors}

@@ -181,7 +181,7 @@ def test_choosing_plots_and_channels(view: SignalsView, push: Push, qtbot: QtBot
 def test_every_quantity_can_be_drawn(view: SignalsView, push: Push) -> None:
     t = np.arange(200) * 0.01
     quat = from_euler(3.0 * t, 0.2 * np.sin(t), 0.0 * t)
-    push(t, mag=(20.0, 0.0, -40.0), temp_c=21.5, quat=quat, local=quat)
+    push(t, mag=(20.0, 0.0, -40.0), temp_c=21.5, quat=quat, local=quat, status=1)
     show(view)
     for key, rows in view.card.quantities.items():
         if not rows.box.isChecked():

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from bleak import BleakClient, BleakScanner
 from bleak.backends.device import BLEDevice
+from bleak.exc import BleakBluetoothNotAvailableError
 
 from imugui.simulation import ble
 
@@ -58,6 +59,16 @@ class Program:
     async def find(self, board: Peripheral, timeout: float = LIMIT_S) -> BLEDevice | None:
         """The board, when a scan finds it."""
         return await BleakScanner.find_device_by_address(board.address, timeout=timeout)
+
+    async def found_again(self, board: Peripheral) -> BLEDevice | None:
+        """The same, while bleak may not yet have heard that there is an adapter again."""
+        end = time.monotonic() + self.LIMIT_S
+        while True:
+            try:
+                return await self.find(board)
+            except BleakBluetoothNotAvailableError:
+                assert time.monotonic() < end, "the adapter did not come back"
+                await asyncio.sleep(0.005)
 
     def client(self, device: BLEDevice) -> BleakClient:
         """A client, not yet connected."""

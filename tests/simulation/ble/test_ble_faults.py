@@ -130,7 +130,7 @@ def test_the_adapter_is_pulled_out_and_put_in(lab: BleLab, card: Peripheral, pro
                 await BleakScanner.discover(timeout=0.1)
             assert none.value.reason.name == "NO_BLUETOOTH"
             await asyncio.to_thread(lab.plug_in)
-            assert await program.find(card) is not None
+            assert await program.found_again(card) is not None
 
     program.play(scene())
 
