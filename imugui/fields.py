@@ -6,6 +6,7 @@ Forms, settings files and command-line help read the same metadata.
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -30,17 +31,25 @@ def problem(item: dataclasses.Field[Any], value: Any) -> str | None:
     """What is wrong with ``value`` for this field, in words, or None."""
     kind = type(item.default)
     if kind is float and isinstance(value, int) and not isinstance(value, bool):
-        value = float(value)
+        value = _as_float(value)
     if type(value) is not kind:
         return f"{item.name}: expected {kind.__name__}, got {type(value).__name__}"
     low, high, choices = (item.metadata.get(key) for key in ("low", "high", "choices"))
     if choices and value not in choices:
         return f"{item.name}: {value!r} is none of {', '.join(choices)}"
-    if isinstance(value, float) and value != value:
+    if isinstance(value, float) and not math.isfinite(value):
         return f"{item.name}: not a number"
     if (low is not None and value < low) or (high is not None and value > high):
         return f"{item.name}: {value} is outside {low} to {high}"
     return None
+
+
+def _as_float(value: int) -> float:
+    """The nearest float; infinite where there is none."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def from_mapping(cls: type[Any], values: Mapping[str, Any]) -> tuple[Any, list[str]]:

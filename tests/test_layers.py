@@ -23,7 +23,7 @@ RANKS = {
     ),
     "workers": NO_QT_BELOW,
     "views": 4,
-    **dict.fromkeys(("app", "cli", "calibrate", "study", "__main__"), 5),
+    **dict.fromkeys(("app", "cli", "calibrate", "crash", "study", "__main__"), 5),
 }
 QT = ("PySide6", "shiboken6", "pyqtgraph")
 # an outside package -> the ranks that may import it

@@ -24,6 +24,7 @@ NANS: Vector = (NAN, NAN, NAN)
 QUALITIES = ("good", "usable", "poor")
 LONGEST_TEXT = 400
 MOST_SAMPLES = 10**12
+FIRST_YEAR, LAST_YEAR = 1970, 2199  # nobody has calibrated outside of these, and calendars end
 
 
 def limited(default: Any, limit: float, *, low: float | None = None, most: int = 0) -> Any:
@@ -64,6 +65,8 @@ class Part:
         """The date, with its time zone; ValueError when it is none."""
         try:
             when = datetime.fromisoformat(self.date)
+            if not FIRST_YEAR <= when.year <= LAST_YEAR:
+                raise ValueError(self.date)
         except ValueError:
             raise ValueError(f"date: {self.date[:40]!r} is no ISO 8601 date") from None
         return when if when.tzinfo else when.replace(tzinfo=UTC)

@@ -8,7 +8,6 @@ from datetime import UTC, datetime, timedelta
 from hashlib import sha256
 from typing import Any
 
-from imugui.calibration.gate import TYPICAL_DIP_DEG, heading_error_deg
 from imugui.calibration.parts import (
     NAN,
     PARTS,
@@ -20,7 +19,6 @@ from imugui.calibration.parts import (
     Part,
     TemperaturePart,
 )
-from imugui.calibration.temperature import TemperatureModel
 from imugui.fusion.correction import Correction, Vector
 
 LIFE_DAYS = {"gyroscope": 30, "accelerometer": 365, "magnetometer": 30, "temperature": 365}
@@ -118,6 +116,8 @@ class Profile:
         mag = self.magnetometer
         if mag is None or math.isnan(mag.predicted_deg):
             return NAN
+        from imugui.calibration.gate import TYPICAL_DIP_DEG, heading_error_deg  # start-up time
+
         dip_deg = min(STEEPEST_DIP, abs(TYPICAL_DIP_DEG if math.isnan(mag.dip_deg) else mag.dip_deg))
         tilt = UNKNOWN_TILT_DEG if math.isnan(self.tilt_error_deg) else self.tilt_error_deg
         uneven = 0.0 if math.isnan(mag.residual_percent) else mag.residual_percent / 100
@@ -161,6 +161,8 @@ class Profile:
         part = self.temperature
         if part is None:
             return (0.0, 0.0, 0.0)
+        from imugui.calibration.temperature import TemperatureModel  # start-up time
+
         model = TemperatureModel(part.coefficients, part.reference_c, part.low_c, part.high_c)
         x, y, z = model.bias(temp_c).tolist()
         return x, y, z

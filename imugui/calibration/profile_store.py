@@ -31,9 +31,14 @@ class ProfileStore:
     def find(self, board: Board) -> Profile | None:
         """The board's profile, or None; ProfileError or OSError when its file cannot be used."""
         try:
-            return load(self.path_of(board))
+            profile = load(self.path_of(board))
         except FileNotFoundError:
             return None
+        if profile.board.key != board.key:
+            raise ProfileError(
+                f"{self.path_of(board).name}: made for another board ({profile.board.title}); import it to use it here"
+            )
+        return profile
 
     def entries(self) -> list[Entry]:
         """Every file, by name of its board; those that cannot be used come last, with the reason."""

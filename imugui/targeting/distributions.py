@@ -9,6 +9,8 @@ import math
 from collections.abc import Callable
 
 ROUNDS = 200
+LARGE = 1000.0
+"""of a t: people who all differ by the same to three digits."""
 
 
 def t_quantile(df: float, p: float) -> float:
@@ -42,8 +44,11 @@ def f_above(df1: float, df2: float, f: float) -> float:
 def noncentrality(df: float, t: float, p: float) -> float:
     """The noncentrality at which a noncentral t stays below ``t`` with probability p; NaN when it is not found.
 
-    By bisection: scipy's own inverse is right to 1e-6 only.
+    By bisection: scipy's own inverse is right to 1e-6 only. Beyond LARGE the noncentrality grows as t itself does, to
+    1e-6, and scipy's sum would take minutes and be wrong.
     """
+    if abs(t) > LARGE:
+        return noncentrality(df, math.copysign(LARGE, t), p) * (abs(t) / LARGE)
     step = math.sqrt(1.0 + t * t / (2.0 * df))
 
     def excess(shift: float) -> float:

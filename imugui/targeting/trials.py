@@ -80,8 +80,8 @@ AXES = ("x", "y", "z")
 KINDS: dict[str, Any] = typing.get_type_hints(Trial)
 FIELDS = tuple(field.name for field in dataclasses.fields(Trial))
 CHOICES = {"task": TASKS, "selection": SELECTIONS}
-LARGEST = 10**9
-"""of a whole number; no count of ours comes near."""
+LARGEST = 2**53
+"""of a whole number; a larger one is no float."""
 REQUIRED = ("participant", "condition", "movement_time_s")
 COLUMNS: tuple[str, ...] = tuple(
     column

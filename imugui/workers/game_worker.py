@@ -17,7 +17,7 @@ from imugui.workers.worker import Worker
 if TYPE_CHECKING:  # start-up time
     from imugui.targeting.game import Game
     from imugui.targeting.game_look import GameLook
-from imugui.targeting.play_again import Row, each_row
+    from imugui.targeting.play_again import Row
 
 TICK_S = 1.0 / 200.0
 
@@ -68,6 +68,8 @@ class GameWorker(Worker):
         game = self._game
         if game is not None and not game.done:
             self._pending += game.tick(now - self._stepped, handed)
+            from imugui.targeting.play_again import each_row  # start-up time
+
             for place, row in enumerate(each_row(rows)):
                 self._play(game, row, count - len(rows) + place)
             self.look = game.look()
