@@ -130,8 +130,8 @@ def _keyboard() -> QWidget:
     grid.setHorizontalSpacing(20)
     grid.setVerticalSpacing(6)
     grid.setColumnStretch(1, 1)
-    keys = (*KEYS, *PLOT_KEYS, *GAME_KEYS)
-    rows = [("1, 2, …", "Bring a page to the front"), *((key.keys, key.words) for key in keys)]
+    every = (*KEYS, *PLOT_KEYS, *GAME_KEYS)
+    rows = [("1, 2, …", "Bring a page to the front"), *((key.keys, key.words) for key in every)]
     rows.append(("Arrows, + and −", "In the picture: look around and zoom; turn the board where it is turned by hand"))
     for row, (keys, words) in enumerate(rows):
         label = QLabel(keys)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -12,8 +12,10 @@ from imugui.ring import Ring
 from imugui.samples import ATTITUDE, SAMPLE
 from imugui.workers.fusion_worker import AgeCounts, FusionWorker
 from imugui.workers.game_worker import GameWorker
-from imugui.workers.relative_worker import RelativeWorker
 from imugui.workers.worker import log_file
+
+if TYPE_CHECKING:
+    from imugui.workers.relative_worker import RelativeWorker
 
 RING_ROWS = 1 << 17  # two minutes at 1 kHz
 
@@ -41,6 +43,8 @@ class Fused(QObject):
 
     def _relate(self, reference: Fused) -> None:
         """Look at this board in the frame of another one from now on."""
+        from imugui.workers.relative_worker import RelativeWorker  # start-up time: only two boards need guidance here
+
         self.relative = RelativeWorker(self._fusion, reference._fusion, RING_ROWS)
         self.relative.failed.connect(self._defect)
         self.relative.start()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from imugui.guidance.turning import Turning
 from imugui.ring import Ring
 from imugui.samples import ATTITUDE, Rows
 from imugui.workers.fusion_worker import FusionWorker
+from imugui.workers.status import RelativeStatus
 from imugui.workers.worker import Worker
 
 TICK_S = 1.0 / 200.0
@@ -24,18 +24,6 @@ FRESH_S = 0.5
 """Boards can be aligned while the newest relative attitude is younger than this."""
 
 Epochs = tuple[int, int]
-
-
-@dataclass(frozen=True)
-class RelativeStatus:
-    """What a page says of the relative attitude. Ages in ms, of the newest attitude; numbers not known are NaN."""
-
-    tool_age_ms: float
-    reference_age_ms: float
-    aligned: bool  # the two headings can be compared
-    same_north: bool  # by the magnetometers of both
-    aligned_s: float  # seconds since the two boards were aligned; NaN when they were not
-    residual_deg: float  # how differently the two boards were held then, apart from the heading
 
 
 class RelativeWorker(Worker):

@@ -27,18 +27,15 @@ from imugui.workers.ble_scan import Scan, Sighting
 from imugui.workers.ble_transport import BleTransport
 from imugui.workers.board_profile import START_UP_S, BoardProfile, board_of
 from imugui.workers.fused import RING_ROWS, Fused
-from imugui.workers.guide_facts import guide_facts
 from imugui.workers.player import SPEEDS, Player
 from imugui.workers.reader import Reader
 from imugui.workers.record_control import RecordControl
 from imugui.workers.recorder import LOW_DISK, RecordingStatus, disk_words
-from imugui.workers.relative_facts import relative_facts
-from imugui.workers.relative_worker import RelativeStatus
 from imugui.workers.replay_transport import ReplayTransport
 from imugui.workers.serial_transport import Port, list_ports
 from imugui.workers.simulator_transport import SimulatorTransport
 from imugui.workers.snapshot import LOOK_ROWS, fitted_rate_hz, snapshot
-from imugui.workers.status import Status
+from imugui.workers.status import RelativeStatus, Status
 from imugui.workers.transport import Source
 from imugui.workers.verdict import Facts, State, Verdict, judge, oddity
 
@@ -326,6 +323,9 @@ class Session(Fused):
 
     def guide_facts(self) -> dict[str, Any]:
         """What guidance must know of the stream and the calibration to trust an attitude: see workers.guide_facts."""
+        from imugui.workers.guide_facts import guide_facts  # start-up time: only the Guide page asks
+        from imugui.workers.relative_facts import relative_facts
+
         state = self._verdict(time.perf_counter()).state
         own = guide_facts(self._fusion, self._known, self.samples, state is State.STREAMING)
         if self.relative is None or self._reference is None:

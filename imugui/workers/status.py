@@ -58,6 +58,18 @@ def board_facts(transport: Any) -> dict[str, Any]:
     }
 
 
+@dataclass(frozen=True)
+class RelativeStatus:
+    """What a page says of the relative attitude. Ages in ms, of the newest attitude; numbers not known are NaN."""
+
+    tool_age_ms: float
+    reference_age_ms: float
+    aligned: bool  # the two headings can be compared
+    same_north: bool  # by the magnetometers of both
+    aligned_s: float  # seconds since the two boards were aligned; NaN when they were not
+    residual_deg: float  # how differently the two boards were held then, apart from the heading
+
+
 def mag_trust(rows: Rows, use_mag: bool, calibrated: bool, alarm: str = "off") -> tuple[str, float]:
     """(word, median field in uT) from the newest ATTITUDE rows, shape (n,), and the light of the field's alarm.
 
