@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -88,19 +89,44 @@ def decode_again(recording: Recording, start: Event) -> Rows:
     if name not in FORMATS:
         raise UnreadableError(f"{recording.folder}: recorded from an unknown format {name!r}")
     decoder = FORMATS[name].decoder(_options(recording.about))
-    blocks = [rows for rows in _decoded(decoder, recording.folder / RAW) if len(rows)]
+    fed = list(_decoded(decoder, recording.folder / RAW))
+    blocks = [rows for _, rows in fed if len(rows)]
     if not blocks:
         return np.empty(0, SAMPLE)
-    blocks[0] = np.concatenate((_cut_at_the_start(blocks, recording.samples, blocks[0]["t_arrival"][0]), blocks[0]))
-    clock: ArrivalClock | DeviceClock = DeviceClock() if decoder.has_time else ArrivalClock()
-    try:
-        clock.restore(start.data["clock"])
-    except (KeyError, TypeError, ValueError) as error:
-        raise UnreadableError(f"{recording.folder}: its start state is damaged ({error})") from None
+    cut = _cut_at_the_start(blocks, recording.samples)
+    if len(cut):
+        arrivals = [arrival for arrival, _ in takewhile(lambda one: len(one[1]) == 0, fed)]
+        cut["t_arrival"] = _arrival_of(cut, [*arrivals, float(blocks[0]["t_arrival"][0])], decoder, start)
+    blocks[0] = np.concatenate((cut, blocks[0]))
+    clock = _clock(decoder, start)
     for block in blocks:
         for rows in np.split(block, np.flatnonzero(np.diff(block["t_arrival"])) + 1):
             clock.stamp(rows)
     return np.concatenate(blocks)
+
+
+def _clock(decoder: Decoder, start: Event) -> ArrivalClock | DeviceClock:
+    """The clock as it was when the recording began."""
+    clock: ArrivalClock | DeviceClock = DeviceClock() if decoder.has_time else ArrivalClock()
+    try:
+        clock.restore(start.data["clock"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise UnreadableError(f"its start state is damaged ({error})") from None
+    return clock
+
+
+def _arrival_of(cut: Rows, arrivals: list[float], decoder: Decoder, start: Event) -> float:
+    """Which of these arrivals completed the samples that began before the recording: the one that gives their times.
+
+    The last one when none does alone: then they came together with the first whole ones.
+    """
+    for arrival in arrivals:
+        again = cut.copy()
+        again["t_arrival"] = arrival
+        _clock(decoder, start).stamp(again)
+        if np.array_equal(again["t"], cut["t"]):
+            return arrival
+    return arrivals[-1]
 
 
 def _decoded(decoder: Decoder, path: Path) -> Any:
@@ -111,17 +137,15 @@ def _decoded(decoder: Decoder, path: Path) -> Any:
         elif not chunk:
             decoder.resync()
         else:
-            yield decoder.feed(chunk, arrival)
+            yield arrival, decoder.feed(chunk, arrival)
 
 
-def _cut_at_the_start(blocks: list[Rows], samples: Rows, arrival: float) -> Rows:
+def _cut_at_the_start(blocks: list[Rows], samples: Rows) -> Rows:
     """Recorded samples, of which a part of the bytes came before the recording began."""
     first = blocks[0][0]
     for missing in range(min(CUT_AT_MOST, len(samples))):
         if all(_same(samples[name][missing], first[name]) for name in ("gyr", "acc", "mag", "temp_c")):
-            cut = samples[:missing].copy()
-            cut["t_arrival"] = arrival
-            return cut
+            return samples[:missing].copy()
     return samples[:0]
 
 
