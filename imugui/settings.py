@@ -10,13 +10,13 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from imugui.fields import field, from_mapping
+from imugui.paths import replace_file
 
 FILE_NAME = "settings.json"
 MARK, VERSION = "imugui_settings", 1
@@ -95,12 +95,7 @@ def save(path: Path, store: Store) -> None:
     """Write the settings file whole; raises OSError when the folder cannot be written."""
     path.parent.mkdir(parents=True, exist_ok=True)
     text = json.dumps({MARK: VERSION, **dataclasses.asdict(store)}, indent=1, allow_nan=False)
-    temporary = path.with_suffix(".tmp")
-    with temporary.open("w", encoding="utf-8") as stream:
-        stream.write(text)
-        stream.flush()
-        os.fsync(stream.fileno())
-    temporary.replace(path)
+    replace_file(path, text)
 
 
 def _text(path: Path) -> str:

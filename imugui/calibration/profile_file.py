@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from imugui import __version__
 from imugui.calibration.parts import NAN, PARTS, Part
 from imugui.calibration.profile import Board, Profile
+from imugui.paths import replace_file
 
 VERSION = 1
 MARK = "imugui_profile"
@@ -52,17 +51,7 @@ def from_text(text: str) -> Profile:
 def save(path: Path, profile: Profile) -> None:
     """Write the profile; raises OSError. Killed at any moment, it leaves the old file or the new one."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem[:40]}-", suffix=".tmp", dir=path.parent)
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(to_text(profile))
-            stream.flush()
-            os.fsync(stream.fileno())
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    replace_file(path, to_text(profile))
 
 
 def load(path: Path) -> Profile:

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import os
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +18,7 @@ from imugui.guidance.plan import Plan
 from imugui.guidance.reading import Reading, Vector, plain, plan_from, reading_from, unit_vector
 from imugui.guidance.registration import Registration
 from imugui.guidance.registration import from_dict as registration_from
+from imugui.paths import replace_file
 
 MARK, VERSION = "imugui_guidance", 1
 LARGEST = 64 << 20
@@ -74,17 +73,7 @@ def from_text(text: str) -> tuple[Kept, list[str]]:
 def save(path: Path, kept: Kept) -> None:
     """Write the session; raises OSError. Killed at any moment, it leaves the old file or the new one."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem[:40]}-", suffix=".tmp", dir=path.parent)
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(to_text(kept))
-            stream.flush()
-            os.fsync(stream.fileno())
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    replace_file(path, to_text(kept))
 
 
 def load(path: Path) -> tuple[Kept, list[str]]:

@@ -1,4 +1,4 @@
-"""Files that survive a killed program: replaced as a whole, or appended to line by line."""
+"""Files that survive a killed program: appended to line by line, or replaced whole (paths.replace_file)."""
 
 from __future__ import annotations
 
@@ -22,20 +22,6 @@ def read_text(path: Path) -> str:
 def to_bytes(text: str) -> bytes:
     """The bytes that ``read_text`` found."""
     return text.encode("utf-8", "surrogateescape")
-
-
-def replace_file(path: Path, text: str) -> None:
-    """Write a file as a whole: killed at any moment, there is the old one or the new one. Raises OSError."""
-    temporary = path.with_name(f".{path.name}.tmp")
-    try:
-        with temporary.open("wb") as stream:
-            stream.write(to_bytes(text))
-            stream.flush()
-            os.fsync(stream.fileno())
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
 
 
 def append(path: Path, head: str, lines: Iterable[str], safe: bool = False) -> None:

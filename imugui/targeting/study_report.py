@@ -7,13 +7,13 @@ from collections.abc import Iterable
 from datetime import datetime
 from pathlib import Path
 
+from imugui.paths import replace_file
 from imugui.targeting.design import honesty
 from imugui.targeting.measures import runs_csv
 from imugui.targeting.questionnaires import Answer
 from imugui.targeting.results import Results, results
 from imugui.targeting.results_report import report_html
 from imugui.targeting.settings import Control
-from imugui.targeting.study_files import replace_file
 from imugui.targeting.study_plan import StudyPlan, before_it_starts, orders
 from imugui.targeting.study_progress import Sorted, all_runs, sort_trials
 from imugui.targeting.study_store import REST, TRIALS, Stored, load

@@ -21,8 +21,9 @@ from pathlib import Path
 from typing import Any
 
 from imugui import __version__
+from imugui.paths import replace_file
 from imugui.targeting.questionnaires import SUS, TLX, Answer
-from imugui.targeting.study_files import append, read_text, replace_file, set_aside
+from imugui.targeting.study_files import append, read_text, set_aside
 from imugui.targeting.study_plan import StudyPlan, as_mapping, plan_from
 from imugui.targeting.trials import COLUMNS, Trial, csv_line, read_trials, trial_line
 

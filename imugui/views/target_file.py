@@ -8,8 +8,9 @@ from pathlib import Path
 
 from imugui.fields import field as editable
 from imugui.fields import from_mapping
+from imugui.paths import replace_file
 from imugui.targeting.settings import Control
-from imugui.targeting.study_files import read_text, replace_file
+from imugui.targeting.study_files import read_text
 from imugui.targeting.tasks import Task
 
 FILE_NAME = "targeting.json"

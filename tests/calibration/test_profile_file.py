@@ -46,7 +46,7 @@ def stop(*_):
     print("now", flush=True)
     sys.stdin.read()
 if step == "writing":
-    profile_file.os.fsync = stop
+    os.fsync = stop
 else:
     pathlib.Path.replace = stop
 profile_file.save(path, Profile(Board("serial", "new")))
