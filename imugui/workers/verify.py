@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from imugui import __version__
 from imugui.formats import FORMATS, Decoder, Options
@@ -21,6 +24,8 @@ from imugui.workers.changes import CHANGES, start_of
 from imugui.workers.verify_game import GameCheck, verify_games
 from imugui.workers.verify_guidance import GuidanceCheck, verify_guidance
 
+Clock = ArrivalClock | DeviceClock
+LOOK_BLOCKS = 20  # in which an arrival's effect on the times after it is looked for
 CUT_AT_MOST = 50  # samples at the start of which some bytes lie before the recording
 NO_GUIDANCE, NO_GAMES = GuidanceCheck(), GameCheck()
 COMPARED = ("t", "gyr", "acc", "mag", "temp_c", "status", "lat", "lon", "alt", "speed", "course_deg")
@@ -93,40 +98,52 @@ def decode_again(recording: Recording, start: Event) -> Rows:
     blocks = [rows for _, rows in fed if len(rows)]
     if not blocks:
         return np.empty(0, SAMPLE)
+    restored = partial(_clock, recording.folder, decoder.has_time, start)
     cut = _cut_at_the_start(blocks, recording.samples)
     if len(cut):
         arrivals = [arrival for arrival, _ in takewhile(lambda one: len(one[1]) == 0, fed)]
-        cut["t_arrival"] = _arrival_of(cut, [*arrivals, float(blocks[0]["t_arrival"][0])], decoder, start)
+        arrivals.append(float(blocks[0]["t_arrival"][0]))
+        head = np.concatenate((cut, *blocks[:LOOK_BLOCKS]))
+        cut["t_arrival"] = _arrival_of(len(cut), head, recording.samples["t"], arrivals, restored)
     blocks[0] = np.concatenate((cut, blocks[0]))
-    clock = _clock(decoder, start)
+    clock = restored()
     for block in blocks:
-        for rows in np.split(block, np.flatnonzero(np.diff(block["t_arrival"])) + 1):
-            clock.stamp(rows)
+        _stamp(clock, block)
     return np.concatenate(blocks)
 
 
-def _clock(decoder: Decoder, start: Event) -> ArrivalClock | DeviceClock:
-    """The clock as it was when the recording began."""
-    clock: ArrivalClock | DeviceClock = DeviceClock() if decoder.has_time else ArrivalClock()
+def _stamp(clock: Clock, rows: Rows) -> None:
+    """What arrived together is stamped together, as it was then."""
+    for block in np.split(rows, np.flatnonzero(np.diff(rows["t_arrival"])) + 1):
+        clock.stamp(block)
+
+
+def _clock(folder: Path, has_time: bool, start: Event) -> Clock:
+    """The clock as it was when the recording began; ``has_time``: its format carries the board's own."""
+    clock: Clock = DeviceClock() if has_time else ArrivalClock()
     try:
         clock.restore(start.data["clock"])
     except (KeyError, TypeError, ValueError) as error:
-        raise UnreadableError(f"its start state is damaged ({error})") from None
+        raise UnreadableError(f"{folder}: its start state is damaged ({error})") from None
     return clock
 
 
-def _arrival_of(cut: Rows, arrivals: list[float], decoder: Decoder, start: Event) -> float:
-    """Which of these arrivals completed the samples that began before the recording: the one that gives their times.
+def _arrival_of(
+    cut: int, head: Rows, recorded_t: NDArray[np.float64], arrivals: list[float], restored: Callable[[], Clock]
+) -> float:
+    """Which of these arrivals completed the first ``cut`` of ``head``: the one that gives it the recorded times, s.
 
-    The last one when none does alone: then they came together with the first whole ones.
+    The time of a sample is foretold from those before it: only the samples after it tell when it came.
     """
-    for arrival in arrivals:
-        again = cut.copy()
-        again["t_arrival"] = arrival
-        _clock(decoder, start).stamp(again)
-        if np.array_equal(again["t"], cut["t"]):
-            return arrival
-    return arrivals[-1]
+
+    def difference(arrival: float) -> float:
+        again = head.copy()
+        again["t_arrival"][:cut] = arrival
+        _stamp(restored(), again)
+        n = min(len(again), len(recorded_t))
+        return float(np.max(np.abs(again["t"][:n] - recorded_t[:n])))
+
+    return min(arrivals, key=difference)
 
 
 def _decoded(decoder: Decoder, path: Path) -> Any:

@@ -17,13 +17,14 @@ import numpy as np
 import pytest
 
 from imugui.fusion import FILTERS
+from imugui.fusion.timing import ArrivalClock
 from imugui.recording import UnreadableError, is_recording, read_recording
 from imugui.recording.folder import ABOUT, ATTITUDE, EVENTS, RAW, SAMPLES
-from imugui.samples import Rows
+from imugui.samples import SAMPLE, Rows, empty_rows
 from imugui.workers.headless import spin
 from imugui.workers.recorder import disk_words
 from imugui.workers.session import Session, Source, State
-from imugui.workers.verify import verify
+from imugui.workers.verify import _arrival_of, verify
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="needs pseudo-terminals")
 
@@ -97,6 +98,29 @@ def test_verify_notices_a_changed_digit(recorded: Path) -> None:
     lines[-5] = ",".join(fields)
     path.write_text("\n".join(lines) + "\n")
     assert verify(recorded).attitude_difference_deg > 0.01
+
+
+def test_a_message_that_came_in_pieces_keeps_its_own_arrival() -> None:
+    """Its first piece came before the recording: only the times after it tell which of the next pieces completed it."""
+    arrivals = 0.01 * np.arange(400) + np.random.default_rng(1).uniform(0.0, 0.003, 400)
+    known, row = ArrivalClock(), empty_rows(SAMPLE, 1)
+    for arrival in arrivals[:380]:
+        row["t_arrival"] = arrival
+        known.stamp(row)
+
+    def restored() -> ArrivalClock:
+        again = ArrivalClock()
+        again.restore(known.state())
+        return again
+
+    candidates = (arrivals[380] - np.array([0.006, 0.004, 0.002, 0.0])).tolist()
+    for true in candidates:
+        head = empty_rows(SAMPLE, 20)
+        head["t_arrival"] = [true, *arrivals[381:]]
+        clock = restored()
+        for number in range(20):
+            clock.stamp(head[number : number + 1])
+        assert _arrival_of(1, head, head["t"].copy(), candidates, restored) == true
 
 
 @POSIX
