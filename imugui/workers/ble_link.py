@@ -218,9 +218,10 @@ class Link:
     async def _ask(self) -> None:
         """Battery, now and whenever it changes, and device information; none of it is needed for the stream."""
         client = self._connected()
+        with contextlib.suppress(Exception):  # first, so that no change falls between
+            await limited(client.start_notify(BATTERY_LEVEL, self._battery), STEP_S)
         with contextlib.suppress(Exception):
             self._battery(None, await limited(client.read_gatt_char(BATTERY_LEVEL), STEP_S))
-            await limited(client.start_notify(BATTERY_LEVEL, self._battery), STEP_S)
         about: dict[str, str] = {}
         for key, uuid in INFORMATION.items():
             with contextlib.suppress(Exception):
