@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from imugui.views import theme
+from imugui.views.painted import Painted
 
 _LETTERS = {"N": 0.0, "E": 90.0, "S": 180.0, "W": 270.0}
 _WINDS = ("N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW")
@@ -27,7 +28,7 @@ def wind(heading_deg: float) -> str:
     return _WINDS[round(heading_deg / 22.5) % 16]
 
 
-class Compass(QWidget):
+class Compass(Painted):
     """North is up and stays there; the pointer on the rim is where the board's x axis heads."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -66,11 +67,6 @@ class Compass(QWidget):
 
     def heightForWidth(self, width: int) -> int:
         return width
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

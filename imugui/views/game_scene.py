@@ -4,28 +4,27 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from imugui.targeting.game_look import GameLook
 from imugui.views import game_labels as labels
 from imugui.views import game_paint as marks
 from imugui.views import game_words as words
-from imugui.views import theme
 from imugui.views.game_backdrop import Backdrop
 from imugui.views.game_colours import colours
 from imugui.views.game_keys import ARROWS, BUTTON_KEYS, GO_ON, MOUSE_BUTTONS, RESET, TAKEN, Held
 from imugui.views.game_map import FieldMap, picture
 from imugui.views.game_words import Plate
+from imugui.views.painted import Painted
 
 TAP_PX, HELD_PX_S = 4.0, 110.0
 """What an arrow key asks for at once, px of the field, and a second while it is held."""
 _REPEAT_S = 0.2  # an arrow that is held for longer goes on
 _LONGEST_S = 0.1  # of one frame
-_BY_KEYBOARD = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
 _TIP = "Red brackets: the target. Blue frame: the field of view. The keys are listed beside."
 
 
-class GameScene(QWidget):
+class GameScene(Painted):
     """Shows a GameLook. What the person does goes out as signals, while ``playing``."""
 
     pressed = Signal(str)
@@ -49,7 +48,6 @@ class GameScene(QWidget):
         self._held = Held()
         self._grabbed: QPointF | None = None
         self._arrows: dict[Qt.Key, float] = {}  # s, for how long each is down
-        self._keyboard_focus = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -129,18 +127,8 @@ class GameScene(QWidget):
             return True
         return super().event(event)
 
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = event.reason() in _BY_KEYBOARD
-        super().focusInEvent(event)
-
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """A key that comes up elsewhere is not heard here."""
-        self._keyboard_focus = False
         self.let_go()
         super().focusOutEvent(event)
 
@@ -237,7 +225,4 @@ class GameScene(QWidget):
             labels.paint_plate(painter, place, plate)
         main = look.to_do if look is not None and plate is None else ""
         labels.paint_bottom(painter, place, main, look.message if look is not None else "", self.hint)
-        if self._keyboard_focus:
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(theme.pen(theme.faded(theme.palette().accent, 0.8), 1.5))
-            painter.drawRoundedRect(self.rect().adjusted(2, 2, -2, -2), 6.0, 6.0)
+        self._paint_focus(painter)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPixmap
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPixmap
+from PySide6.QtWidgets import QSizePolicy
 
 from imugui.guidance.look import Look
 from imugui.guidance.plan import Plan, screen_sign
@@ -15,6 +15,7 @@ from imugui.views import polar_labels as labels
 from imugui.views import polar_paint as paint
 from imugui.views import polar_words as words
 from imugui.views import theme
+from imugui.views.painted import Painted
 from imugui.views.polar_scale import PolarScale
 
 BAND = 78.0
@@ -27,13 +28,12 @@ _KEYS = {
     Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0), Qt.Key.Key_Up: (0.0, 1.0), Qt.Key.Key_Down: (0.0, -1.0),
 }  # fmt: skip
 _MOST_TRAIL = 60
-_BY_KEYBOARD = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
 HAND_HINT = "drag, or arrow keys"
 _HAND_TIP = "Drag, or press the arrow keys, to turn the virtual tool."
 _TIP = "Circle: the plan. Cross: the tool, seen along the way of insertion with the head up. Rings are true degrees."
 
 
-class PolarTarget(QWidget):
+class PolarTarget(Painted):
     """Shows a Look. Colour, shape and word change together; what is not trusted is hatched and says why."""
 
     tool_turned = Signal(float, float)
@@ -49,7 +49,6 @@ class PolarTarget(QWidget):
         self._beat = 0
         self._hand_mode = False
         self._grabbed: QPointF | None = None
-        self._keyboard_focus = False
         self._still: dict[str, tuple[object, QPixmap]] = {}
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -115,19 +114,6 @@ class PolarTarget(QWidget):
         return QSize(420, 320)
 
     # Qt's events
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = event.reason() in _BY_KEYBOARD
-        super().focusInEvent(event)
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = False
-        super().focusOutEvent(event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self._grabbed = event.position()
@@ -258,9 +244,3 @@ class PolarTarget(QWidget):
             labels.paint_age(painter, room, self._look, self._beat)
             band = QRectF(_MARGIN, self.height() - BAND, self.width() - 2 * _MARGIN, BAND)
             labels.paint_band(painter, band, self._look)
-
-    def _paint_focus(self, painter: QPainter) -> None:
-        if self._keyboard_focus:
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(theme.pen(theme.faded(theme.palette().accent, 0.8), 1.5))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(2, 2, -2, -2), 6.0, 6.0)

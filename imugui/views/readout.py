@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QAccessible, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from imugui.views import theme
+from imugui.views.painted import Painted
 
 MINUS = "−"
 _BAR = 3.0  # width of the axis mark
@@ -22,7 +23,7 @@ def number_text(value: float, decimals: int, signed: bool) -> str:
     return f"{rounded:{'+' if signed else ''}.{decimals}f}".replace("-", MINUS)
 
 
-class Readout(QWidget):
+class Readout(Painted):
     """Shows values from -limit to limit with fixed decimals; the room is that of the widest such number."""
 
     def __init__(
@@ -80,11 +81,6 @@ class Readout(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         return self.sizeHint()
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

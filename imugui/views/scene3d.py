@@ -6,10 +6,9 @@ import dataclasses
 import math
 from typing import Any
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
-    QFocusEvent,
     QFontMetricsF,
     QKeyEvent,
     QMouseEvent,
@@ -24,6 +23,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from imugui.fusion import quaternion
 from imugui.views import theme
 from imugui.views.geometry import Camera, camera_from, unit_quat
+from imugui.views.painted import Painted
 from imugui.views.scene_axes import paint_axes, paint_ghost, tip
 from imugui.views.scene_body import Pose, paint_board, shadow_outline
 from imugui.views.scene_cloud import Cloud, make_cloud, paint_cloud
@@ -38,14 +38,13 @@ _ZOOM_STEP = 0.9
 _TURN_KEYS = {
     Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1),
 }  # fmt: skip
-_BY_KEYBOARD = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
 _ZOOM_KEYS = {Qt.Key.Key_Plus: 1, Qt.Key.Key_Equal: 1, Qt.Key.Key_Minus: -1}
 _VIEW_KEYS = {Qt.Key.Key_X: "x", Qt.Key.Key_Y: "y", Qt.Key.Key_Z: "z", Qt.Key.Key_Home: "default"}
 _TIP = "Drag to orbit, wheel to zoom, double click for the default view.\nKeys: arrows, + and −, X, Y, Z, Home."
 _HAND_TIP = "Drag to turn the virtual board, with the right button to orbit, wheel to zoom.\n" + _TIP.splitlines()[1]
 
 
-class Scene3D(QWidget):
+class Scene3D(Painted):
     """Shows an attitude. The camera is the user's; the board, the ghost and the points are the program's."""
 
     hand_turned = Signal(float, float)
@@ -63,7 +62,6 @@ class Scene3D(QWidget):
         self._grabbed: QPointF | None = None
         self._still = QPixmap()
         self._still_key: object = None
-        self._keyboard_focus = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -192,19 +190,6 @@ class Scene3D(QWidget):
         else:
             super().keyPressEvent(event)
 
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = event.reason() in _BY_KEYBOARD
-        super().focusInEvent(event)
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = False
-        super().focusOutEvent(event)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
-
     def _look(self, camera: Camera) -> None:
         if camera != self._camera:
             self._camera = camera
@@ -248,13 +233,9 @@ class Scene3D(QWidget):
 
     def _paint_frame(self, painter: QPainter) -> None:
         """The word for a dimmed board, and a border when the keyboard steers the camera."""
-        colours = theme.palette()
         if self._dimmed:
             _paint_note(painter, QRectF(self.rect()), self._dimmed)
-        if self._keyboard_focus:
-            painter.setPen(theme.pen(colours.accent, 2.0))
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(2, 2, -2, -2), 6.0, 6.0)
+        self._paint_focus(painter)
 
 
 def _paint_note(painter: QPainter, area: QRectF, text: str) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPaintEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from imugui.views import theme
+from imugui.views.painted import Painted
 
 WIDE, HIGH = 240.0, 176.0
 """The room of the drawing in its own units; its middle is (0, 0), y down."""
@@ -16,7 +17,7 @@ _TIP = "Seen from behind, head up. Click a side, or press the left or right arro
 _KEYS = {Qt.Key.Key_Left: "left", Qt.Key.Key_Right: "right"}
 
 
-class SidePicture(QWidget):
+class SidePicture(Painted):
     """Shows a side, and where it may be changed says which one was chosen."""
 
     chosen = Signal(str)  # "left" or "right"
@@ -57,11 +58,6 @@ class SidePicture(QWidget):
             super().keyPressEvent(event)
         else:
             self._choose(side)
-
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtCore import QPoint, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtWidgets import QSizePolicy
 
 from imugui.views import signal_paint as paint
 from imugui.views import theme
+from imugui.views.painted import Painted
 from imugui.views.signal_frame import Frame, Plot
 from imugui.views.signal_paint import Body
 
@@ -42,10 +43,9 @@ _POINTERS = {
     "time": Qt.CursorShape.ArrowCursor,
     "": Qt.CursorShape.ArrowCursor,
 }
-_BY_KEYBOARD = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)
 
 
-class PlotStack(QWidget):
+class PlotStack(Painted):
     """Knows pixels and columns, nothing of boards and time. Places along x are given as a share, 0 left to 1 right."""
 
     asked = Signal(str, int)  # a key: "step", "pan", "zoom", "pause" or "cursor", and how far or which
@@ -67,7 +67,6 @@ class PlotStack(QWidget):
         self._dragging = ""  # "cursor", "time" or the key of a plot
         self._moved = False
         self._wheel = 0.0
-        self._keyboard_focus = False
 
     @property
     def frame(self) -> Frame:
@@ -116,27 +115,11 @@ class PlotStack(QWidget):
             self._paint_cursors(painter, bodies)
             if self._frame.note:
                 paint.paint_note(painter, QRectF(self.rect()), self._frame.note)
-            if self._keyboard_focus:
-                painter.setPen(theme.pen(theme.faded(theme.palette().accent, 0.6)))
-                painter.setBrush(Qt.BrushStyle.NoBrush)
-                painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 6.0, 6.0)
+            self._paint_focus(painter)
         finally:
             painter.end()
 
-    def changeEvent(self, event: QEvent) -> None:
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
-            self.update()
-        super().changeEvent(event)
-
     # keys and mouse
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = event.reason() in _BY_KEYBOARD
-        super().focusInEvent(event)
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        self._keyboard_focus = False
-        super().focusOutEvent(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         shift = Qt.KeyboardModifier.ShiftModifier

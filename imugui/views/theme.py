@@ -232,13 +232,6 @@ def pen(colour: QColor, width: float = 1.0) -> QPen:
     return QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
 
 
-def axis_pen(i: int, width: float = 1.5) -> QPen:
-    """Pen of axis 0 (x), 1 (y) or 2 (z) for curves: the plot's scale does not stretch its width."""
-    result = pen(axis_colour(i), width)
-    result.setCosmetic(True)
-    return result
-
-
 TONES = {"neutral": "●", "good": "✓", "warn": "▲", "bad": "✕"}
 
 

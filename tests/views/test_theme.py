@@ -175,12 +175,6 @@ def test_mixing_and_shading() -> None:
     assert theme.faded(white, 0.5).alpha() == 128
 
 
-def test_axis_pen_keeps_its_width_in_a_plot(qapp: QApplication) -> None:
-    pen = theme.axis_pen(1, 2.5)
-    assert pen.isCosmetic()
-    assert (pen.widthF(), pen.color()) == (2.5, theme.axis_colour(1))
-
-
 def test_palettes_have_only_valid_colours(scheme: str) -> None:
     values = dataclasses.asdict(theme.palette()).values()
     assert all(isinstance(colour, QColor) and colour.isValid() for colour in values)
