@@ -97,10 +97,10 @@ def test_simulate_and_live_meet_on_a_port(tmp_path: Path) -> None:
     board = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
         assert "colon-line at 100 Hz" in (board.stdout.readline() if board.stdout else "")
-        done = run("live", "--port", link, "--seconds", "4")
+        done = run("live", "--port", link, "--seconds", "6")
     finally:
         board.send_signal(signal.SIGINT)
-        board.communicate(timeout=10)
+        board.communicate(timeout=60)
     assert done.returncode == 0, done.stderr
     figures = json.loads(done.stdout)
     assert figures["format"] == "colon-line"

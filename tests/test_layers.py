@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -16,16 +17,18 @@ import pytest
 REPOSITORY = Path(__file__).resolve().parent.parent
 NO_QT_BELOW = 3
 RANKS = {
-    **dict.fromkeys(("__init__", "samples", "ring", "paths", "fields"), 0),
+    **dict.fromkeys(("__init__", "samples", "ring", "paths", "fields", "lazy"), 0),
     "fusion": 1,
     **dict.fromkeys(
         ("formats", "recording", "settings", "signals", "calibration", "guidance", "targeting", "simulation"), 2
     ),
     "workers": NO_QT_BELOW,
     "views": 4,
-    **dict.fromkeys(("app", "cli", "calibrate", "crash", "study", "__main__"), 5),
+    **dict.fromkeys(("app", "cli", "commands", "demo", "calibrate", "crash", "study", "__main__"), 5),
 }
 QT = ("PySide6", "shiboken6", "pyqtgraph")
+LAZY = re.compile(r"imugui(\.\w+)+:\w+")
+"""A place in a lazy table: it is imported too, only later."""
 # an outside package -> the ranks that may import it
 OUTSIDE = {
     **dict.fromkeys(("PySide6", "shiboken6"), (3, 4, 5)),
@@ -78,12 +81,14 @@ def text_of_name(node: ast.AST) -> str:
 
 
 def targets(node: ast.AST, package: str) -> list[str]:
-    """The absolute dotted names that a node imports; each name of a ``from`` import is one of them."""
+    """The absolute dotted names that a node imports, now or later; each name of a ``from`` import is one of them."""
     if isinstance(node, ast.Import):
         return [alias.name for alias in node.names]
     if isinstance(node, ast.ImportFrom):
         base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
         return [f"{base}.{alias.name}" for alias in node.names]
+    if isinstance(node, ast.Constant) and isinstance(node.value, str) and LAZY.fullmatch(node.value):
+        return [node.value.replace(":", ".")]
     if isinstance(node, ast.Call) and text_of_name(node.func).split(".")[-1] in ("import_module", "__import__"):
         return [arg.value for arg in node.args[:1] if isinstance(arg, ast.Constant) and isinstance(arg.value, str)]
     return []
@@ -196,6 +201,7 @@ def test_a_planted_qt_is_seen_in_memory(tmp_path: Path) -> None:
         ("formats/__init__.py", "from ..workers import session", "rank 2 imports rank 3"),
         ("formats/detect.py", "def late():\n    import imugui.workers.session", "rank 2 imports rank 3"),
         ("formats/detect.py", "import importlib\nimportlib.import_module('imugui.views')", "rank 2 imports rank 4"),
+        ("formats/detect.py", "LATE = {'x': 'imugui.workers.session:Session'}", "rank 2 imports rank 3"),
         ("settings.py", "from PySide6.QtCore import QObject", "rank 2 must not import PySide6"),
         ("simulation/board.py", "import pyqtgraph as pg", "rank 2 must not import pyqtgraph"),
         ("simulation/board.py", "from serial.tools import list_ports", "rank 2 must not import serial"),

@@ -6,30 +6,38 @@ imported the table lacks "vqf", Madgwick's filter is the default, and ``VQF_MISS
 
 from __future__ import annotations
 
-from imugui.fusion.complementary import Complementary
 from imugui.fusion.filter import Filter
-from imugui.fusion.imugui_filter import Imugui
-from imugui.fusion.madgwick import Madgwick
-from imugui.fusion.mahony import Mahony
+from imugui.lazy import Lazy
 
-FILTERS: dict[str, type[Filter]] = {
-    "imugui": Imugui,
-    "madgwick": Madgwick,
-    "mahony": Mahony,
-    "complementary": Complementary,
+FILTER_TITLES = {
+    "vqf": "VQF",
+    "imugui": "imugui",
+    "madgwick": "Madgwick",
+    "mahony": "Mahony",
+    "complementary": "Complementary",
+}
+"""What the filters are called, without importing them."""
+
+_PLACES = {
+    "vqf": "imugui.fusion.vqf_filter:Vqf",
+    "imugui": "imugui.fusion.imugui_filter:Imugui",
+    "madgwick": "imugui.fusion.madgwick:Madgwick",
+    "mahony": "imugui.fusion.mahony:Mahony",
+    "complementary": "imugui.fusion.complementary:Complementary",
 }
 
 VQF_MISSING = ""
 """A sentence for the screen where the best filter is missing; empty where it is there."""
 
 try:
-    from imugui.fusion.vqf_filter import Vqf
+    import imugui.fusion.vqf_filter  # noqa: F401
 except ImportError as problem:
     VQF_MISSING = (
         f"The VQF filter is not available because its library cannot be loaded ({problem}). "
         "Madgwick's filter is used instead. On systems with a wheel, 'pip install vqf' brings it."
     )
-else:
-    FILTERS = {"vqf": Vqf, **FILTERS}
+    del FILTER_TITLES["vqf"], _PLACES["vqf"]
+
+FILTERS: Lazy[type[Filter]] = Lazy(_PLACES)
 
 DEFAULT_FILTER = "madgwick" if VQF_MISSING else "vqf"

@@ -15,6 +15,7 @@ import numpy as np
 from imugui.formats import FORMATS, Decoder, Options
 from imugui.formats.layout import TableError
 from imugui.fusion.attitude import euler
+from imugui.recording.base import UnreadableError
 from imugui.recording.fixed_point import table
 from imugui.samples import Rows
 
@@ -26,10 +27,6 @@ LARGEST = 4 << 30
 
 Watch = Callable[[float], None]
 """Is told the share (0 to 1) that is done; raises UnreadableError to give up."""
-
-
-class UnreadableError(Exception):
-    """A file that holds no samples; the message says why and what to do."""
 
 
 @dataclass(frozen=True)

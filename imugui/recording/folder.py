@@ -25,12 +25,12 @@ import numpy as np
 from imugui.formats import FORMATS, Options
 from imugui.formats.csv_line import CsvLineEncoder
 from imugui.recording.attitude_csv import attitude_lines, bounded_lines, read_attitude
-from imugui.recording.csv_files import ATTITUDE_COLUMNS, UnreadableError, Watch, chunks_of
+from imugui.recording.base import UnreadableError
+from imugui.recording.csv_files import ATTITUDE_COLUMNS, Watch, chunks_of
 from imugui.recording.events import Event, from_lines, to_line
 from imugui.recording.raw import Chunk, pack
 from imugui.samples import Rows
 
-SUFFIX = ".imugui"
 VERSION = 1
 ABOUT, SAMPLES, ATTITUDE, EVENTS, RAW = "about.json", "samples.csv", "attitude.csv", "events.jsonl", "raw.bin"
 LARGEST_JSON = 1 << 24

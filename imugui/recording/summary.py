@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from imugui.recording.folder import ABOUT, LARGEST_JSON, SAMPLES, SUFFIX
+from imugui.recording.base import SUFFIX
+from imugui.recording.folder import ABOUT, LARGEST_JSON, SAMPLES
 
 COLUMNS = 160  # of the preview
 WHOLE_BYTES = 64_000_000  # a larger file is looked at in places

@@ -6,9 +6,12 @@ and it reaches the accelerometer only if ``Errors.linear_acceleration`` says so.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from imugui.fusion import quaternion
+from imugui.simulation import MOTION_TITLES
 from imugui.simulation.curves import Wander, smooth_step, soft_start
 from imugui.simulation.driving import Driving
 from imugui.simulation.hand import HandTurned
@@ -106,14 +109,13 @@ class Free(Path):
         return quaternion.multiply(turned, quaternion.from_rotation_vector(sway))
 
 
-MOTIONS: dict[str, Motion] = {
-    "hand": Motion("Turned by hand", "Rests until you drag it with the mouse, then follows your hand.", HandTurned),
-    "rest": Motion("At rest", "Lies still, as a board on a table.", Rest),
-    "turns": Motion(
-        "Slow turns", "Turns by 90 degrees to and fro about each of its axes, with holds.", lambda seed: Turns()
-    ),
-    "aiming": Motion("Aiming a tool", "A hand brings a tool to one target after another and holds it.", Aiming),
-    "driving": Motion("Driving a circuit", "A small RC car drives laps on a track of 2.4 by 1.6 m.", Driving),
-    "free": Motion("Turned to all sides", "Turned over and over, as for calibrating the magnetometer.", Free),
+_MOTIONS: dict[str, tuple[str, Callable[[int], Path]]] = {
+    "hand": ("Rests until you drag it with the mouse, then follows your hand.", HandTurned),
+    "rest": ("Lies still, as a board on a table.", Rest),
+    "turns": ("Turns by 90 degrees to and fro about each of its axes, with holds.", lambda seed: Turns()),
+    "aiming": ("A hand brings a tool to one target after another and holds it.", Aiming),
+    "driving": ("A small RC car drives laps on a track of 2.4 by 1.6 m.", Driving),
+    "free": ("Turned over and over, as for calibrating the magnetometer.", Free),
 }
+MOTIONS: dict[str, Motion] = {name: Motion(title, *_MOTIONS[name]) for name, title in MOTION_TITLES.items()}
 """Every motion by name, in the order in which they are offered."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from imugui.lazy import Lazy
 from imugui.views.view import View
 
 
@@ -18,24 +17,6 @@ class Page:
     tip: str
     place: str  # module of this package, and class
     at_foot: bool = False
-
-
-class Views(Mapping[str, type[View]]):
-    """The pages' classes. A page is imported when it is first asked for: the window starts in half the time."""
-
-    def __init__(self, pages: Mapping[str, Page]) -> None:
-        self._pages = pages
-
-    def __getitem__(self, name: str) -> type[View]:
-        module, kind = self._pages[name].place.split(":")
-        view: type[View] = getattr(importlib.import_module(f"{__name__}.{module}"), kind)
-        return view
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._pages)
-
-    def __len__(self) -> int:
-        return len(self._pages)
 
 
 PAGES: dict[str, Page] = {
@@ -51,4 +32,4 @@ PAGES: dict[str, Page] = {
     "signals": Page("Signals", "signals", "Curves over time, spectra, statistics", "signals_view:SignalsView"),
     "settings": Page("Settings", "settings", "Colours, display, files, keyboard", "settings_view:SettingsView", True),
 }
-VIEWS = Views(PAGES)
+VIEWS: Lazy[type[View]] = Lazy({name: f"imugui.views.{page.place}" for name, page in PAGES.items()})

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import time
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from imugui.workers.session import Scan, Session, Sighting
+from imugui.workers.session import Session
+
+if TYPE_CHECKING:
+    from imugui.workers.session import Scan, Sighting
 
 LOOK_MS = 200
 BURST_S = 3.0  # of one scan: between two of them a connection gets its turn
@@ -24,12 +29,17 @@ class BleSearch(QObject):
         super().__init__(parent)
         self.used = False  # somebody has asked for Bluetooth, which some systems make the user allow
         self.problem = ""  # why nothing can be seen, and what to do
-        self._scan = Scan(session.radio)
+        self._session = session
         self._seen: dict[str, Sighting] = {}  # by address, in the order of first sight
         self._waited = 0  # ms since a scan failed
         self._timer = QTimer(self)
         self._timer.setInterval(LOOK_MS)
         self._timer.timeout.connect(self._look)
+
+    @cached_property
+    def _scan(self) -> Scan:
+        """Made when it is first wanted: start-up time."""
+        return self._session.bluetooth.scan()
 
     @property
     def running(self) -> bool:
@@ -53,8 +63,9 @@ class BleSearch(QObject):
     @Slot()
     def stop(self) -> None:
         """Look no further; what was seen stays."""
-        self._timer.stop()
-        self._scan.stop()
+        if self.running:
+            self._timer.stop()
+            self._scan.stop()
 
     @Slot()
     def _look(self) -> None:

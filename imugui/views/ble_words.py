@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
-from imugui.workers.session import Sighting
+if TYPE_CHECKING:
+    from imugui.workers.session import Sighting
 
 MOST_BARS = 4
 WEAK_DBM = -85.0  # below, a link is easily lost

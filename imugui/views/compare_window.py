@@ -8,7 +8,7 @@ import time
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QCheckBox, QDialog, QFrame, QHBoxLayout, QProgressBar, QScrollArea, QVBoxLayout, QWidget
 
-from imugui.fusion import FILTERS
+from imugui.fusion import FILTER_TITLES, FILTERS
 from imugui.recording.compare import Figures, refuse
 from imugui.views.compare_plots import ComparePlots, Comparison
 from imugui.views.controls import Button, StillBox
@@ -50,8 +50,8 @@ class CompareWindow(QDialog):
         self._ghostly = False
         self.form: Form | None = None
         self.filter = StillBox("Second filter", "The filter to compare with the one in use")
-        for name, kind in FILTERS.items():
-            self.filter.add(kind.title, name)
+        for name, title in FILTER_TITLES.items():
+            self.filter.add(title, name)
         self.mag = QCheckBox("Use the magnetometer")
         self.mag.setToolTip("In the second filter")
         self.mag.setChecked(session.use_mag)
@@ -218,4 +218,4 @@ def figure_words(one: Figures) -> str:
 
 
 def _title(name: str, use_mag: bool) -> str:
-    return f"{FILTERS[name].title} {'with' if use_mag else 'without'} magnetometer"
+    return f"{FILTER_TITLES[name]} {'with' if use_mag else 'without'} magnetometer"

@@ -32,15 +32,19 @@ class Button(QPushButton):
         self.setText(text)
         self.setToolTip(tip(action, words))
         self.setAccessibleName(text.replace("…", "") or words)
-        self.setIconSize(QSize(16, 16))
         self.setProperty("role", role)
         if small:
             self.setFont(theme.font("small"))
-        self._paint_icon()
+        self.setIconSize(QSize(16, 16))
 
     def setText(self, text: str) -> None:
         """Text with air between it and the icon."""
         super().setText(f" {text}" if self._icon and text else text)
+
+    def setIconSize(self, size: QSize) -> None:
+        """Show the icon this large."""
+        super().setIconSize(size)
+        self._paint_icon()
 
     def set_icon(self, name: str) -> None:
         """Show another icon."""
@@ -64,7 +68,8 @@ class Button(QPushButton):
         if self._icon:
             colours = theme.palette()
             special = {"primary": colours.on_accent, "recording": colours.bad}
-            self.setIcon(theme.icon(self._icon, special.get(self.property("role"), colours.text)))
+            colour = special.get(self.property("role"), colours.text)
+            self.setIcon(theme.icon(self._icon, colour, self.iconSize().width()))
 
 
 class StillBox(QComboBox):

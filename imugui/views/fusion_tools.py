@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from imugui.fusion import FILTERS
+from imugui.fusion import FILTER_TITLES
 from imugui.views.controls import Button, StillBox
 from imugui.views.filters import use_filter
 from imugui.views.record_tools import RecordTools
@@ -24,8 +24,8 @@ class FusionTools(QWidget):
         self._session = session
         self._settings_store = settings_store
         self.filter = StillBox("Filter", "How the sensors are fused; another one goes on from the attitude reached")
-        for name, kind in FILTERS.items():
-            self.filter.add(kind.title, name, words=f"The {kind.title} filter")
+        for name, title in FILTER_TITLES.items():
+            self.filter.add(title, name, words=f"The {title} filter")
         self.filter.setMinimumContentsLength(5)
         self.filter.setSizeAdjustPolicy(StillBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.filter.activated.connect(self._filter_chosen)

@@ -25,7 +25,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from imugui.formats.layout import TableError
 from imugui.views import PAGES
 from imugui.views.board_desk import BoardDesk
 from imugui.views.boards_window import FIRST_PAGE, BoardsWindow
@@ -145,7 +144,8 @@ class MainWindow(BoardsWindow):
     @Slot()
     def name_columns(self) -> None:
         """Let the user say what the columns of this board, or of this file, mean."""
-        from imugui.views.column_asking import dialog_for_board, dialog_for_file  # start-up time
+        from imugui.formats.layout import TableError  # start-up time
+        from imugui.views.column_asking import dialog_for_board, dialog_for_file
 
         choice = self.bar.source.choice()
         try:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QButtonGroup, QFrame, QToolButton, QVBoxLayout
 from imugui.views import Page, theme
 
 WIDTH = 90
+ICON = QSize(26, 26)
 
 
 class Navigation(QFrame):
@@ -51,7 +52,7 @@ class Navigation(QFrame):
         button.setProperty("role", "rail")
         button.setText(page.title)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
-        button.setIconSize(QSize(26, 26))
+        button.setIconSize(ICON)
         button.setFixedSize(WIDTH - 12, 62)
         button.setFont(theme.font("small"))
         button.setCheckable(True)
@@ -66,4 +67,4 @@ class Navigation(QFrame):
         colours = theme.palette()
         for name, button in self.buttons.items():
             colour = colours.accent if button.isChecked() else colours.muted
-            button.setIcon(theme.icon(self._pages[name].icon, colour))
+            button.setIcon(theme.icon(self._pages[name].icon, colour, ICON.width()))

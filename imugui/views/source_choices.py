@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from imugui.simulation import MOTION_TITLES
 from imugui.views import ble_words
 from imugui.views.ble_search import BleSearch
-from imugui.workers.session import MOTION_TITLES, Port, Sighting
+from imugui.workers.session import Port
+
+if TYPE_CHECKING:
+    from imugui.workers.session import Sighting
 
 
 @dataclass(frozen=True)

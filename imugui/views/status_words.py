@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from imugui.fusion import FILTERS
+from imugui.fusion import FILTER_TITLES
 from imugui.views.ble_words import EMPTY_PERCENT, LOW_PERCENT, WEAK_DBM, signal_words
 from imugui.workers.session import Status
 
@@ -113,8 +113,7 @@ _BATTERY = (
 
 def filter_title(status: Status) -> Phrase:
     """The filter in use."""
-    known = FILTERS.get(status.filter)
-    return Phrase(known.title if known else status.filter)
+    return Phrase(FILTER_TITLES.get(status.filter, status.filter))
 
 
 PARTS: dict[str, Part] = {

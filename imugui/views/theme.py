@@ -6,6 +6,7 @@ Axis colours are Okabe-Ito (Color Universal Design, 2008), brighter in the dark 
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 
 from PySide6.QtCore import QByteArray, QRectF, Qt
@@ -171,25 +172,30 @@ def font(role: str) -> QFont:
     return result
 
 
-_ICON_SIZES = (16, 20, 24, 32, 40, 48, 64, 96)
+_FINEST = 2.0  # a screen of 200 % may be plugged in later; any other shows a smaller picture of this one
 
 
-def icon(name: str, colour: QColor | None = None) -> QIcon:
-    """resources/icons/NAME.svg in one colour (the text colour when none is given), sharp up to 96 pixels."""
+def icon(name: str, colour: QColor | None = None, side: int = 24) -> QIcon:
+    """resources/icons/NAME.svg in one colour (the text colour when none is given).
+
+    It is sharp where it is shown ``side`` logical pixels wide, on every screen that is there now.
+    """
     plain = colour or palette().text
+    ratios = {_FINEST, *(screen.devicePixelRatio() for screen in QGuiApplication.screens())}
+    sizes = tuple(sorted({math.ceil(side * ratio) for ratio in ratios}))
     result = QIcon()
     for mode, shown in ((QIcon.Mode.Normal, plain), (QIcon.Mode.Disabled, mix(plain, palette().window, 0.6))):
-        for image in _drawn(name, shown.name()):
+        for image in _drawn(name, shown.name(), sizes):
             result.addPixmap(QPixmap.fromImage(image), mode)
     return result
 
 
-@functools.cache  # a window has two hundred icons, most of them alike, and drawing one takes milliseconds
-def _drawn(name: str, colour: str) -> tuple[QImage, ...]:
+@functools.cache  # a window has two hundred icons, most of them alike, and drawing all sizes takes milliseconds
+def _drawn(name: str, colour: str, sizes: tuple[int, ...]) -> tuple[QImage, ...]:
     text = (paths.resources() / "icons" / f"{name}.svg").read_text(encoding="utf-8")
     renderer = QSvgRenderer(QByteArray(text.replace("currentColor", colour).encode()))
     images = []
-    for size in _ICON_SIZES:
+    for size in sizes:
         image = QImage(size, size, QImage.Format.Format_ARGB32_Premultiplied)
         image.fill(Qt.GlobalColor.transparent)
         painter = QPainter(image)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from imugui.workers.ble_loop import Radio
-from imugui.workers.ble_transport import BleTransport
-from imugui.workers.replay_transport import ReplayTransport
-from imugui.workers.serial_transport import SerialTransport
-from imugui.workers.simulator_transport import SimulatorTransport
-from imugui.workers.transport import Source, Transport
+from imugui.lazy import Lazy
 
-TRANSPORTS: dict[str, Callable[[Source, Radio], Transport]] = {
-    "serial": lambda source, _: SerialTransport(source),
-    "ble": BleTransport,
-    "replay": lambda source, _: ReplayTransport(source),
-    "simulator": lambda source, _: SimulatorTransport(source),
-}
+if TYPE_CHECKING:
+    from imugui.workers.transport import Transport
+
+TRANSPORTS: Lazy[Callable[..., Transport]] = Lazy(
+    {
+        "serial": "imugui.workers.serial_transport:SerialTransport",
+        "ble": "imugui.workers.ble_transport:BleTransport",
+        "replay": "imugui.workers.replay_transport:ReplayTransport",
+        "simulator": "imugui.workers.simulator_transport:SimulatorTransport",
+    }
+)
+"""Each is made of a Source; a ``wireless`` one of a Source and the Radio."""

@@ -10,7 +10,7 @@ from imugui.workers.ble_errors import problem
 from imugui.workers.ble_link import BoardFacts, Link
 from imugui.workers.ble_loop import Radio
 from imugui.workers.port_errors import LinkError, Problem
-from imugui.workers.transport import Arrivals, Source
+from imugui.workers.transport import Arrivals, Source, Transport
 
 if TYPE_CHECKING:
     from bleak.backends.device import BLEDevice
@@ -31,7 +31,7 @@ FINAL = (
 )  # trying again gives the same
 
 
-class BleTransport:
+class BleTransport(Transport):
     """One board, told by its name or its address. ``radio`` is shared by all boards of a program.
 
     A board that was connected once is connected again directly: the system then waits for its next advertisement,

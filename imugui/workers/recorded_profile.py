@@ -8,10 +8,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from imugui import recording
 from imugui.calibration.profile import Profile
 from imugui.calibration.profile_file import ProfileError, from_text, to_text
-from imugui.recording import UnreadableError, is_recording
-from imugui.recording.folder import read_about
 
 
 @dataclass(frozen=True)
@@ -34,12 +33,12 @@ class Calibrated:
 
 def calibrated_then(path: Path) -> Calibrated:
     """What a recording says; nothing calibrated where it says nothing, or nothing that can be used."""
-    if not is_recording(path):
+    if not recording.is_recording(path):
         return Calibrated()
     try:
-        about = read_about(path)
+        about = recording.read_about(path)
         noted, when = about["calibration"], datetime.fromisoformat(about["started_utc"])
         profile = from_text(json.dumps(noted["profile"])) if noted["profile"] else None
         return Calibrated(profile, noted["factory"] is True, when if when.tzinfo else when.replace(tzinfo=UTC))
-    except (UnreadableError, ProfileError, KeyError, TypeError, ValueError):
+    except (recording.UnreadableError, ProfileError, KeyError, TypeError, ValueError):
         return Calibrated()

@@ -13,8 +13,8 @@ from typing import Any
 
 from PySide6.QtCore import Signal
 
+from imugui import recording
 from imugui.recording.events import Event
-from imugui.recording.folder import FolderWriter
 from imugui.recording.raw import Chunk
 from imugui.ring import Ring
 from imugui.workers.worker import Worker
@@ -58,7 +58,7 @@ class Recorder(Worker):
     def __init__(self, folder: Path, about: dict[str, Any], samples: Ring, attitude: Ring, tap: Tap) -> None:
         """Make the folder at once; raises OSError."""
         super().__init__()
-        self._writer = FolderWriter(folder, about)
+        self._writer = recording.FolderWriter(folder, about)
         self._rings: tuple[tuple[Ring, Callable[[Any], None], str], ...] = (
             (samples, self._writer.samples, "first_sample"),
             (attitude, self._writer.attitude, "first_attitude"),

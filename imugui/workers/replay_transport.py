@@ -10,13 +10,13 @@ from pathlib import Path
 from imugui.recording import Capture, Recording, UnreadableError, is_recording, read_recording, read_samples
 from imugui.samples import Rows
 from imugui.workers.player import BLOCK, Player
-from imugui.workers.transport import Source
+from imugui.workers.transport import Source, Transport
 
 SHORTEST_WAIT_S = 0.004
 LONGEST_WAIT_S = 0.1
 
 
-class ReplayTransport:
+class ReplayTransport(Transport):
     """Plays one file. ``address`` is its path; ``player`` is there once it is open."""
 
     retries = False

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from imugui.workers.port_errors import PORT_ERRORS
-from imugui.workers.transport import Source
+from imugui.workers.transport import Source, Transport
 
 READ_TIMEOUT_S = 0.1
 NETWORK_TIMEOUT_S = 0.01  # in_waiting says only 0 or 1 on a socket, so a bounded block is read instead
@@ -72,7 +72,7 @@ def _port(info: Any) -> Port:
     return Port(info.device, description, hint)
 
 
-class SerialTransport:
+class SerialTransport(Transport):
     """One serial port."""
 
     retries = True

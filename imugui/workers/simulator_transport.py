@@ -12,7 +12,7 @@ from imugui.simulation.errors import PRESETS
 from imugui.simulation.hand import HandTurned
 from imugui.simulation.pacing import Pacer
 from imugui.simulation.wire import Wire, real_board
-from imugui.workers.transport import Arrivals, Source
+from imugui.workers.transport import Arrivals, Source, Transport
 
 HAND = "hand"
 RATE_HZ = 200.0
@@ -20,7 +20,7 @@ SHORTEST_WAIT_S = 0.002
 LONGEST_WAIT_S = 0.1
 
 
-class SimulatorTransport:
+class SimulatorTransport(Transport):
     """A virtual board that is always plugged in. ``address`` is its motion."""
 
     retries = False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -35,6 +36,8 @@ class Transport(Protocol):
 
     retries: bool  # True: a port that fails is tried again; False: the failure is final
     baud: int  # 0 where there is none
+    wireless: bool = False
+    room: Callable[[], int]  # how many rows the receiver can take without losing any; given after it was made
 
     def open(self) -> None:
         """Open; raises one of PORT_ERRORS."""
@@ -44,3 +47,6 @@ class Transport(Protocol):
 
     def close(self) -> None:
         """Close; never raises."""
+
+    def cancel(self) -> None:
+        """Give up what may take long, for good; from any thread."""

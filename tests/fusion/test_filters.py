@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from imugui import fields
-from imugui.fusion import DEFAULT_FILTER, FILTERS, VQF_MISSING
+from imugui.fusion import DEFAULT_FILTER, FILTER_TITLES, FILTERS, VQF_MISSING
 from imugui.fusion import attitude as at
 from imugui.fusion import quaternion as qt
 from imugui.fusion.filter import Filter
@@ -66,6 +66,10 @@ def test_the_default_filter_is_in_the_table() -> None:
     assert DEFAULT_FILTER in FILTERS
     assert ("vqf" in FILTERS) == (VQF_MISSING == "")
     assert {"madgwick", "mahony", "complementary"} <= set(FILTERS)
+
+
+def test_the_titles_are_those_of_the_filters() -> None:
+    assert list(FILTER_TITLES.items()) == [(name, kind.title) for name, kind in FILTERS.items()]
 
 
 def test_presets_are_valid_and_begin_with_the_defaults(name: str) -> None:

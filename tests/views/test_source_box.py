@@ -11,8 +11,9 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from imugui.simulation import MOTION_TITLES
 from imugui.views.source_box import OPEN_FILE, TYPE_ADDRESS, SourceBox
-from imugui.workers.session import MOTION_TITLES, Port
+from imugui.workers.session import Port
 
 ACM = Port("/dev/ttyACM0", "Arduino Uno", "Arduino Uno")
 USB = Port("/dev/ttyUSB0", "USB Serial", "CH340, on many Arduino Nano copies")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -144,6 +145,11 @@ def test_icon_is_drawn_in_the_colour_asked_for(qapp: QApplication, path: Path) -
         parts = [(colour.red() - 0x12, colour.green() - 0xAB, colour.blue() - 0x34) for colour in covered]
         assert max(abs(part) for colour in parts for part in colour) <= 1  # overlapping strokes round once more
         assert "#" not in path.read_text(encoding="utf-8")
+
+
+def test_an_icon_is_sharp_in_its_size_on_this_screen_and_a_finer_one(qapp: QApplication) -> None:
+    own = math.ceil(26 * qapp.primaryScreen().devicePixelRatio())
+    assert {size.width() for size in theme.icon("record", side=26).availableSizes()} == {own, 52}
 
 
 def test_icons_of_the_contract_are_there() -> None:
