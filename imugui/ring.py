@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 import threading
 from typing import Any
 
@@ -23,6 +24,17 @@ class Ring:
         self.count = 0
         self._rows = np.zeros(2 * capacity, dtype)
         self._lock = threading.Lock()
+        self._reserved = False
+
+    def reserve(self) -> None:
+        """Have the system give all of the ring's memory now, if nothing was pushed yet; at the most once.
+
+        Otherwise it comes page by page while the ring fills for the first time, which takes 11 minutes at 200 Hz: a
+        long recording could find in its eleventh minute that there is no memory left.
+        """
+        if not self._reserved and self.count == 0:
+            self._reserved = True
+            self._rows.view(np.uint8)[:: mmap.PAGESIZE] = 0  # written, as a page that is only read is not given
 
     def push(self, rows: Rows) -> None:
         """Append a block of rows, shape (n,); of more than ``capacity`` rows only the newest are kept."""

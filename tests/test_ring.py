@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -41,6 +42,31 @@ def test_a_copy_is_given() -> None:
     ring.push(block(0, 3))
     ring.last(3)["n"] = 99
     assert ring.last(3)["n"].tolist() == [0, 1, 2]
+
+
+def resident_bytes() -> int:
+    smaps = Path("/proc/self/smaps_rollup")
+    if not smaps.is_file():
+        pytest.skip("this system does not tell what a process holds")
+    return 1024 * int(next(line.split()[1] for line in smaps.read_text().splitlines() if line.startswith("Rss")))
+
+
+def test_a_reserved_ring_has_all_of_its_memory_before_the_first_row() -> None:
+    ring = Ring(NUMBER, 1 << 22)  # 64 MiB, as it is mirrored
+    before = resident_bytes()
+    ring.reserve()
+    reserved = resident_bytes()
+    assert reserved - before > 60 << 20
+    for first in range(0, 1 << 22, 1 << 16):
+        ring.push(block(first, 1 << 16))
+    assert resident_bytes() - reserved < 4 << 20
+
+
+def test_reserving_forgets_no_row() -> None:
+    ring = Ring(NUMBER, 1000)
+    ring.push(block(0, 1000))
+    ring.reserve()
+    assert ring.last(1000)["n"].tolist() == list(range(1000))
 
 
 def test_no_room_is_refused() -> None:

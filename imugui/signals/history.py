@@ -35,8 +35,9 @@ class History:
         self._row = {key: row for row, key in enumerate(keys)}
         self._periods = {self._row[key]: period for key, period in (periods or {}).items()}
         room = capacity + capacity // 4 + 1
-        self._t = np.empty(room)
-        self._values = np.empty((len(keys), room))
+        # filled, so that the system gives the memory now and not while the history grows
+        self._t = np.full(room, np.nan)
+        self._values = np.full((len(keys), room), np.nan)
         self.clear()
 
     def clear(self) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Signal
 
-from imugui.recording import Event, Recording
+from imugui.recording.events import Event
 from imugui.ring import Ring
 from imugui.samples import Rows
 from imugui.workers.fusion_worker import FusionWorker
@@ -20,6 +20,9 @@ from imugui.workers.status import board_facts
 from imugui.workers.transport import Arrivals, Source, Transport
 from imugui.workers.verdict import Facts
 from imugui.workers.worker import Worker
+
+if TYPE_CHECKING:
+    from imugui.recording import Recording
 
 RETRY_S = 0.25
 DENIED_GRACE_S = 1.0  # udev sets the rights a moment after a port appears
@@ -113,6 +116,8 @@ class Reader(Worker):
         self._transport.close()
 
     def _try_open(self) -> None:
+        for ring in (self._ring, self._fusion.attitude):  # here, so that neither start nor window waits for it
+            ring.reserve()
         try:
             self._transport.open()
         except PORT_ERRORS as error:

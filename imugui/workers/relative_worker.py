@@ -33,6 +33,7 @@ class RelativeWorker(Worker):
         """``rows``: capacity of the ring."""
         super().__init__()
         self.attitude = Ring(ATTITUDE, rows)
+        self.attitude.reserve()
         self._tool, self._reference = tool, reference
         self._relative = Relative()
         self._counts = tool.attitude.count, reference.attitude.count
@@ -94,6 +95,8 @@ class RelativeWorker(Worker):
         reference, tool = newest
         self._alignment = align(tool, reference, self.same_north)
         self._aligned_at, self._aligned_in = time.perf_counter(), self._epochs
+        for worker in (self._tool, self._reference):
+            worker.refer_heading()
         self._changes += 1
         return True
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import math
+import weakref
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -56,7 +58,7 @@ def test_a_second_board_has_its_own_source_status_pages_and_recording(pair: Main
     assert pair.strip.isVisible()
     assert not first.bar.add_button.isVisible()
     qtbot.waitUntil(lambda: 130.0 < second.session.status().rate_hz < 150.0)
-    assert first.session.status().rate_hz > 190.0
+    qtbot.waitUntil(lambda: first.session.status().rate_hz > 190.0)
     pair.strip.tabs[1].click()
     assert pair.desk is second
     assert [desk.bar.isVisible() for desk in pair.desks] == [False, True]
@@ -105,6 +107,12 @@ def test_a_removed_board_is_gone_and_its_session_ended(pair: MainWindow, qtbot: 
     assert pair.bar.add_button.isVisible()
     pair.add_board()
     assert pair.desk.session is not gone
+
+
+def test_a_removed_board_gives_its_memory_back(pair: MainWindow, qtbot: QtBot) -> None:
+    ring = weakref.ref(pair.desks[1].session.samples)
+    pair.remove_board()
+    qtbot.waitUntil(lambda: gc.collect() >= 0 and ring() is None)
 
 
 def test_relative_is_offered_where_it_acts(pair: MainWindow) -> None:
