@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import platform
 import resource
@@ -34,9 +35,13 @@ def children_s() -> float:
 
 
 def line(benchmark: str, case: str, ratio: float, wanted: float | None, at_least: bool, **more: Any) -> None:
-    """Print one figure: a ratio, what it must reach (None: nothing), whether it does, and what it was made of."""
+    """Print one figure: a ratio, what it must reach (None: nothing), whether it does, and what it was made of.
+
+    A ratio that is not known (NaN) is printed as null.
+    """
     ok = wanted is None or (ratio >= wanted if at_least else ratio <= wanted)
-    figure = {"benchmark": benchmark, "case": case, "ratio": round(ratio, 3), "wanted": wanted}
+    known = round(ratio, 3) if math.isfinite(ratio) else None
+    figure = {"benchmark": benchmark, "case": case, "ratio": known, "wanted": wanted}
     print(json.dumps(figure | {"at_least": at_least, "ok": ok} | more), flush=True)
 
 
