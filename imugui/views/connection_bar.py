@@ -141,12 +141,14 @@ class ConnectionBar(QFrame):
 
     @Slot(str, str)
     def connect_to(self, transport: str, address: str) -> None:
-        """Choose a source and connect it; with an empty address ask for a recording."""
-        if not address:
+        """Choose a source and connect it; with an empty address ask for a recording, or search for boards."""
+        if address:
+            self.source.choose_source(transport, address)
+            self.connect_chosen()
+        elif transport == "ble":
+            self.source.search_bluetooth()
+        else:
             self.open_recording()
-            return
-        self.source.choose_source(transport, address)
-        self.connect_chosen()
 
     @Slot()
     def open_recording(self) -> None:

@@ -11,7 +11,8 @@ from imugui.views.labels import ElidedLabel, heading, muted
 from imugui.workers.session import Port
 
 FIRST_MOTION = "hand"
-CARD_WIDTH = 460
+CARD_WIDTH = 580
+PICTURE = 56  # px
 MOST_PORTS = 4  # the connection bar lists them all
 NO_PORTS = "No serial port found. Plug a board in: it appears here by itself."
 
@@ -19,7 +20,7 @@ NO_PORTS = "No serial port found. Plug a board in: it appears here by itself."
 class EmptyState(QWidget):
     """In the middle of a page while nothing is connected."""
 
-    wanted = Signal(str, str)  # transport, address; an empty address: ask for a file
+    wanted = Signal(str, str)  # transport, address; an empty address: ask for a file, or search
 
     def __init__(self, icon: str, title: str, words: str) -> None:
         super().__init__()
@@ -78,13 +79,15 @@ class EmptyState(QWidget):
         start.clicked.connect(lambda: self.wanted.emit("simulator", FIRST_MOTION))
         open_ = Button("Open a recording", "A capture of a board's bytes, or a CSV file", "open_recording", "open")
         open_.clicked.connect(lambda: self.wanted.emit("replay", ""))
+        search = Button("Bluetooth", "Search for boards that speak Bluetooth LE", icon="bluetooth")
+        search.clicked.connect(lambda: self.wanted.emit("ble", ""))
         box = QWidget()
         row = QHBoxLayout(box)
         row.setContentsMargins(0, 8, 0, 0)
         row.setSpacing(10)
         row.addStretch(1)
-        row.addWidget(start)
-        row.addWidget(open_)
+        for button in (start, open_, search):
+            row.addWidget(button)
         row.addStretch(1)
         return box
 
@@ -106,5 +109,5 @@ class EmptyState(QWidget):
         return frame
 
     def _paint_picture(self) -> None:
-        pixmap = theme.icon(self._icon, theme.palette().muted).pixmap(QSize(56, 56), self.devicePixelRatioF())
-        self._picture.setPixmap(pixmap)
+        icon = theme.icon(self._icon, theme.palette().muted, PICTURE)
+        self._picture.setPixmap(icon.pixmap(QSize(PICTURE, PICTURE), self.devicePixelRatioF()))

@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QKeyEvent, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QComboBox, QLineEdit
 
+from imugui.simulation import MOTION_TITLES
 from imugui.views import theme
 from imugui.views.ble_search import BleSearch
 from imugui.views.controls import ENTRY_HEIGHT, StillBox
@@ -23,7 +24,7 @@ from imugui.views.source_choices import (
     names_of,
     sections,
 )
-from imugui.workers.session import MOTION_TITLES, Port
+from imugui.workers.session import Port
 
 __all__ = ["OPEN_FILE", "TYPE_ADDRESS", "Choice", "SourceBox"]
 
@@ -126,14 +127,14 @@ class SourceBox(StillBox):
             self._begin_typing()
             return
         if data.action:
-            self._ask_bluetooth(data.action)
+            self._show_all ^= data.action == "show_all"
+            self.search_bluetooth()
             return
         self._chosen = data
         self.picked.emit()
 
-    def _ask_bluetooth(self, action: str) -> None:
-        """Search, or show more of what was found, and open the list again."""
-        self._show_all ^= action == "show_all"
+    def search_bluetooth(self) -> None:
+        """Search for boards, and open the list with what was found."""
         if self._search is not None:
             self._search.used = True
         QTimer.singleShot(0, self, self._show_boards)
@@ -153,6 +154,7 @@ class SourceBox(StillBox):
             return
         fresh = self._bluetooth_items(self._search)
         old = [row for row in range(model.rowCount()) if model.item(row).data(PLACE) == BLUETOOTH]
+        widest = max(map(self._room_for, old))
         self.blockSignals(True)
         for row, item in zip(old, fresh, strict=False):
             model.setItem(row, item)
@@ -161,7 +163,8 @@ class SourceBox(StillBox):
         model.removeRows(old[0] + len(fresh), max(0, len(old) - len(fresh)))
         self.setCurrentIndex(self._row_of(self._chosen))
         self.blockSignals(False)
-        if self.view().isVisible() and len(fresh) != len(old):
+        wider = any(self._room_for(row) > widest for row in range(old[0], old[0] + len(fresh)))
+        if self.view().isVisible() and (len(fresh) != len(old) or wider):
             self._fit_list()
 
     def _fit_list(self) -> None:

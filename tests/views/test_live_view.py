@@ -46,6 +46,7 @@ def test_without_a_source_the_page_says_what_it_will_show(view: LiveView) -> Non
     assert [button.text().strip() for button in view.empty.buttons()] == [
         "Start the simulated board",
         "Open a recording",
+        "Bluetooth",
     ]
 
 
@@ -148,8 +149,8 @@ def test_a_port_is_asked_for(view: LiveView, qtbot: QtBot) -> None:
 
 def test_the_board_is_turned_by_hand(view: LiveView, qtbot: QtBot, session: Session) -> None:
     session.connect_to(Source("simulator", "hand"))
-    qtbot.waitUntil(lambda: session.status().state is State.STREAMING, timeout=5000)
-    qtbot.waitUntil(lambda: session.attitude.count > 20, timeout=5000)
+    qtbot.waitUntil(lambda: session.status().state is State.STREAMING)
+    qtbot.waitUntil(lambda: session.attitude.count > 20)
     show(view)
     assert view.hint.isVisible()
     before = session.attitude.last(1)["quat"][0]
@@ -163,13 +164,34 @@ def test_the_board_is_turned_by_hand(view: LiveView, qtbot: QtBot, session: Sess
 
 def test_the_origin_is_told_with_its_age(view: LiveView, qtbot: QtBot, session: Session) -> None:
     session.connect_to(Source("simulator", "rest"))
-    qtbot.waitUntil(session.set_origin, timeout=5000)
-    view.origin_moved()
-    show(view)
-    assert view.origin.text() == "Relative to the origin set 0 s ago"
-    qtbot.waitUntil(lambda: float(session.attitude.last(1)["local"][0][0]) > 0.999, timeout=3000)
+    qtbot.waitUntil(session.set_origin)
+
+    def told_at_once() -> bool:
+        view.origin_moved()
+        show(view)
+        return view.origin.text() == "Relative to the origin set 0 s ago"
+
+    qtbot.waitUntil(told_at_once)
+    qtbot.waitUntil(lambda: float(session.attitude.last(1)["local"][0][0]) > 0.999)
     show(view)
     assert all(abs(float(text.replace("−", "-"))) < 3.0 for text in angles(view))
     session.clear_origin()
     show(view)
     assert view.origin.text() == ""
+
+
+def test_while_another_filter_has_taken_over_it_says_so(view: LiveView, session: Session, push_attitude: Push) -> None:
+    push_attitude(sigma_tilt=0.01, sigma_heading=0.02)
+    show(view)
+    assert view.angles.sigma.isVisible()
+    assert not view.angles.takeover.isVisible()
+    session._fusion.filter_note = "VQF has taken over for now: its numbers have failed."
+    push_attitude()
+    show(view)
+    assert not view.angles.sigma.isVisible()
+    assert (view.angles.takeover.tone, view.angles.takeover.text()) == ("warn", "VQF has taken over for now")
+    assert view.angles.why.text() == "Its numbers have failed."
+    session._fusion.filter_note = ""
+    show(view)
+    assert not view.angles.takeover.isVisible()
+    assert not view.angles.why.isVisible()
