@@ -90,6 +90,7 @@ class Link:
         self._services: tuple[str, ...] = ()
         self._stage = "scan"
         self._quiet_since = math.nan
+        self._battery_told = False
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def open(self) -> None:
@@ -221,14 +222,20 @@ class Link:
         with contextlib.suppress(Exception):  # first, so that no change falls between
             await limited(client.start_notify(BATTERY_LEVEL, self._battery), STEP_S)
         with contextlib.suppress(Exception):
-            self._battery(None, await limited(client.read_gatt_char(BATTERY_LEVEL), STEP_S))
+            level = await limited(client.read_gatt_char(BATTERY_LEVEL), STEP_S)
+            if not self._battery_told:  # a change that was told while the answer was on its way is newer
+                self._take_level(level)
         about: dict[str, str] = {}
         for key, uuid in INFORMATION.items():
             with contextlib.suppress(Exception):
                 about[key] = bytes(await limited(client.read_gatt_char(uuid), STEP_S)).decode("utf-8", "replace")
         self.facts.about = about or self.facts.about
 
-    def _battery(self, _: BleakGATTCharacteristic | None, data: bytearray) -> None:
+    def _battery(self, _: BleakGATTCharacteristic, data: bytearray) -> None:
+        self._battery_told = True
+        self._take_level(data)
+
+    def _take_level(self, data: bytearray) -> None:
         if len(data) == 1 and data[0] <= 100:
             self.facts.battery_percent = float(data[0])
 

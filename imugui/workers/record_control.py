@@ -5,15 +5,17 @@ from __future__ import annotations
 import dataclasses
 import datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from imugui import __version__
 from imugui.fusion.pipeline import Pipeline
 from imugui.ring import Ring
 from imugui.workers.fusion_worker import FusionWorker
-from imugui.workers.reader import Reader
-from imugui.workers.recorded_profile import Calibrated
 from imugui.workers.recorder import Recorder, RecordingStatus, Tap
+
+if TYPE_CHECKING:  # start-up time
+    from imugui.workers.reader import Reader
+    from imugui.workers.recorded_profile import Calibrated
 
 
 class RecordControl:
@@ -43,9 +45,9 @@ class RecordControl:
         recorder, self._recorder = self._recorder, None
         if recorder is None:
             return None
+        recorder.stop()  # first: every sample it takes has its bytes
         if reader is not None:
             reader.record(None)
-        recorder.stop()
         self._fusion.end_tap()
         return recorder.status().path
 

@@ -92,8 +92,8 @@ def connect(session: Session, cable: Cable, qtbot: Any) -> Callable[[], None]:
 
     def do() -> None:
         session.connect_to(cable.source)
-        qtbot.waitUntil(lambda: session.status().state is State.WAITING, timeout=5_000)
+        qtbot.waitUntil(lambda: session.status().state is State.WAITING)
         cable.begin()
-        qtbot.waitUntil(lambda: session.samples.count == 5, timeout=5_000)
+        qtbot.waitUntil(lambda: session.samples.count == 5)
 
     return do

@@ -63,17 +63,17 @@ def test_a_defect_in_the_window_names_the_log_and_the_recording_goes_on(
     report = CrashReport(log, window.show_message)
     window.show()
     session.connect_to(Source("simulator", "free"))
-    qtbot.waitUntil(lambda: session.attitude.count > 20, timeout=10_000)
+    qtbot.waitUntil(lambda: session.attitude.count > 20)
     assert session.record(tmp_path / "on.imugui")
     with qtbot.captureExceptions() as caught:
         QTimer.singleShot(0, fail)
-        qtbot.waitUntil(lambda: bool(caught), timeout=5_000)
+        qtbot.waitUntil(lambda: bool(caught))
     report.take(*caught[0])
     assert str(log) in window.banner.text()
     assert "a planted defect" in window.banner.text()
     assert "in fail" in log.read_text()
     rows = session.recording.rows
-    qtbot.waitUntil(lambda: session.recording.rows > rows + 50, timeout=10_000)
+    qtbot.waitUntil(lambda: session.recording.rows > rows + 50)
     window.close()
     window.deleteLater()
     assert read_recording(tmp_path / "on.imugui").warnings == ()
@@ -85,7 +85,7 @@ def test_a_defect_in_any_thread_reaches_the_window(crash: CrashReport, said: lis
     thread = threading.Thread(target=fail)
     thread.start()
     thread.join()
-    qtbot.waitUntil(lambda: bool(said), timeout=5_000)
+    qtbot.waitUntil(lambda: bool(said))
     assert "RuntimeError: a planted defect" in said[0]
     assert str(log) in said[0]
     assert "Traceback" in log.read_text()
@@ -97,15 +97,15 @@ def test_a_defect_of_a_worker_is_said_with_the_log(
     told: list[str] = []
     session.message.connect(lambda _, text: told.append(text))
     session.connect_to(Source("simulator", "free"))
-    qtbot.waitUntil(lambda: session.attitude.count > 20, timeout=10_000)
+    qtbot.waitUntil(lambda: session.attitude.count > 20)
     pipeline = session._fusion._running
     monkeypatch.setattr(pipeline, "_fuse", lambda *_: fail())
-    qtbot.waitUntil(lambda: bool(told), timeout=5_000)
+    qtbot.waitUntil(lambda: bool(told))
     assert "a planted defect" in told[0]
     assert str(log) in told[0]
     monkeypatch.undo()
     count = session.attitude.count
-    qtbot.waitUntil(lambda: session.attitude.count > count + 50, timeout=10_000)
+    qtbot.waitUntil(lambda: session.attitude.count > count + 50)
 
 
 def test_what_comes_with_every_frame_neither_fills_the_log_nor_the_banner(

@@ -46,7 +46,7 @@ def test_a_folder_that_cannot_be_written_is_said_and_samples_go_on(
     assert "cannot be written" in said[-1]
     assert session.recording is None
     before = session.samples.count
-    qtbot.waitUntil(lambda: session.samples.count > before + 10, timeout=5_000)
+    qtbot.waitUntil(lambda: session.samples.count > before + 10)
 
 
 def test_settings_that_cannot_be_written_are_said_once_and_hold(refused: Path, qapp: object) -> None:

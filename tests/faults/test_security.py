@@ -149,7 +149,7 @@ def test_nothing_listens_while_the_window_streams_and_records(session: Session, 
     window = MainWindow(session, SettingsStore())
     window.show()
     session.connect_to(Source("simulator", "free"))
-    qtbot.waitUntil(lambda: session.attitude.count > 20, timeout=10_000)
+    qtbot.waitUntil(lambda: session.attitude.count > 20)
     assert session.record(tmp_path / "on.imugui")
     for name in window.pages:
         window.show_page(name)

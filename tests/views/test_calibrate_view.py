@@ -64,8 +64,8 @@ def view(session: Session, settings_store: SettingsStore, shown: Callable[[Any],
 @pytest.fixture
 def connected(view: CalibrateView, session: Session, qtbot: QtBot) -> CalibrateView:
     session.connect_to(Source("simulator", "rest", errors="mpu9250"))
-    qtbot.waitUntil(lambda: session.status().state is State.STREAMING, timeout=5000)
-    qtbot.waitUntil(lambda: session.attitude.count > 5, timeout=5000)
+    qtbot.waitUntil(lambda: session.status().state is State.STREAMING)
+    qtbot.waitUntil(lambda: session.attitude.count > 5)
     view.slow_refresh()
     return view
 
@@ -78,7 +78,7 @@ def pump(view: CalibrateView, qtbot: QtBot, until: Callable[[], bool]) -> None:
         view.refresh()
         return until()
 
-    qtbot.waitUntil(step, timeout=15000)
+    qtbot.waitUntil(step)
 
 
 def press(view: CalibrateView, key: Qt.Key, qtbot: QtBot) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -69,19 +70,25 @@ def test_every_recording_is_as_long_as_asked(streaming: Session, folder: Path, q
 
 def test_progress_goes_from_nothing_to_all(streaming: Session, qtbot: QtBot) -> None:
     collection = Collection(streaming)
-    collection.start(Plan(duration_s=0.5, countdown_s=0.3, repeats=1))
+    collection.start(Plan(duration_s=1.0, countdown_s=1.0, repeats=1))
     first = collection.stage()
     assert (first.phase, first.run) == (COUNTDOWN, 1)
     assert first.share < 0.2
-    qtbot.waitUntil(lambda: collection.stage().phase == RECORDING and collection.stage().share > 0.7)
-    assert 0.0 < collection.stage().left_s < 0.3
+    looks = [first]
+
+    def near_the_end() -> bool:
+        looks.append(collection.stage())
+        return looks[-1].phase == RECORDING and looks[-1].share > 0.8
+
+    qtbot.waitUntil(near_the_end)
+    assert 0.0 < looks[-1].left_s < 0.5
     qtbot.waitUntil(lambda: collection.stage().phase == IDLE)
 
 
 def test_cancel_keeps_what_is_complete(streaming: Session, folder: Path, qtbot: QtBot) -> None:
     collection = Collection(streaming)
     said = told(collection)
-    collection.start(SHORT)
+    collection.start(replace(SHORT, duration_s=1.5))
     qtbot.waitUntil(lambda: len(collection.made) == 1 and streaming.recording is not None)
     cut = streaming.recording.path
     collection.cancel()
@@ -109,7 +116,7 @@ def test_a_recording_ended_by_hand_ends_the_collection(streaming: Session, qtbot
 def test_losing_the_board_between_two_ends_it(streaming: Session, qtbot: QtBot) -> None:
     collection = Collection(streaming)
     said = told(collection)
-    collection.start(SHORT)
+    collection.start(replace(SHORT, duration_s=1.5))
     qtbot.waitUntil(lambda: len(collection.made) == 1)
     streaming.disconnect_source()
     qtbot.waitUntil(lambda: not collection.running)

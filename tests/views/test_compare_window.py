@@ -48,7 +48,7 @@ def compute(window: MainWindow, qtbot: QtBot, name: str, use_mag: bool = True) -
     compare.mag.setChecked(use_mag)
     qtbot.mouseClick(compare.button, Qt.MouseButton.LeftButton)
     assert compare.button.text().strip() == "Cancel"
-    qtbot.waitUntil(lambda: compare.comparison is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: compare.comparison is not None)
 
 
 def test_nothing_to_compare_without_a_replay(window: MainWindow) -> None:

@@ -59,7 +59,7 @@ def test_every_row_once_and_a_result_when_done(qtbot: QtBot) -> None:
     runner.start()
     for start in range(4):
         runner.feed(block(start, 3))
-    qtbot.waitUntil(lambda: bool(steps) and steps[-1].picture == (12, 12), timeout=5000)
+    qtbot.waitUntil(lambda: bool(steps) and steps[-1].picture == (12, 12))
     runner.stop()
     assert steps[0].result is None
     assert steps[-1].result.reason == "12 rows"
@@ -71,7 +71,7 @@ def test_a_flow_that_ends_is_left_alone(qtbot: QtBot) -> None:
     steps = steps_of(runner)
     runner.start()
     runner.feed(block(0, 10))
-    qtbot.waitUntil(lambda: bool(steps) and steps[-1].done, timeout=5000)
+    qtbot.waitUntil(lambda: bool(steps) and steps[-1].done)
     runner.feed(block(1, 10))
     runner.stop()
     assert (len(flow.times), flow.results) == (10, 1)
@@ -82,13 +82,13 @@ def test_a_method_is_called_in_the_thread(qtbot: QtBot) -> None:
     steps = steps_of(runner)
     runner.start()
     runner.ask("finish")
-    qtbot.waitUntil(lambda: bool(steps) and steps[-1].done, timeout=5000)
+    qtbot.waitUntil(lambda: bool(steps) and steps[-1].done)
     runner.stop()
 
 
 def test_a_defect_is_told_and_ends_the_run(qtbot: QtBot) -> None:
     runner = FlowRunner(Counting(), lambda flow, recent: None)
-    with qtbot.waitSignal(runner.failed, timeout=5000) as told:
+    with qtbot.waitSignal(runner.failed) as told:
         runner.start()
         runner.feed(empty_rows(SAMPLE, 1))
     assert "no time" in told.args[0]

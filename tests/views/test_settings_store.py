@@ -17,7 +17,7 @@ def test_a_change_is_told_at_once_and_saved_soon(qtbot: QtBot, tmp_path: Path) -
     with qtbot.waitSignal(store.changed):
         store.update(decimals=2)
     assert store.settings.decimals == 2
-    qtbot.waitUntil(path.exists, timeout=3000)
+    qtbot.waitUntil(path.exists)
     assert json.loads(path.read_text(encoding="utf-8"))["settings"]["decimals"] == 2
     assert SettingsStore(path).settings.decimals == 2
 

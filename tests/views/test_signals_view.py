@@ -389,7 +389,7 @@ def test_the_data_on_screen_are_exported(
     show(view)
     path = tmp_path / "some.csv"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
-    with qtbot.waitSignal(view.export.ended, timeout=5000), qtbot.waitSignal(view.session.message) as said:
+    with qtbot.waitSignal(view.export.ended), qtbot.waitSignal(view.session.message) as said:
         view.card.export.click()
     assert said.args[0] == "info"
     lines = path.read_text(encoding="utf-8").splitlines()
@@ -406,7 +406,7 @@ def test_an_export_that_fails_says_why(view: SignalsView, push: Push, qtbot: QtB
     push(np.arange(100) * 0.01)
     show(view)
     missing = tmp_path / "nowhere" / "some.csv"
-    with qtbot.waitSignal(view.session.message, timeout=5000) as said:
+    with qtbot.waitSignal(view.session.message) as said:
         view.export.write(missing, view.export_table(), {})
     assert said.args[0] == "error"
     assert "could not be written" in said.args[1]
@@ -415,7 +415,7 @@ def test_an_export_that_fails_says_why(view: SignalsView, push: Push, qtbot: QtB
 def test_an_export_can_be_cancelled(view: SignalsView, push: Push, qtbot: QtBot, tmp_path: Path) -> None:
     push(np.arange(10_000) * 0.001)
     show(view)
-    with qtbot.waitSignal(view.export.ended, timeout=5000):
+    with qtbot.waitSignal(view.export.ended):
         view.export.write(tmp_path / "some.csv", view.export_table(), {})
         assert view.export.busy
         view.export_data()
@@ -426,7 +426,7 @@ def test_an_export_can_be_cancelled(view: SignalsView, push: Push, qtbot: QtBot,
 
 def test_live_data_and_a_stalled_source(view: SignalsView, session: Session, qtbot: QtBot) -> None:
     session.connect_to(Source("simulator", "free"))
-    qtbot.waitUntil(lambda: session.status().state is State.STREAMING and session.attitude.count > 50, timeout=5000)
+    qtbot.waitUntil(lambda: session.status().state is State.STREAMING and session.attitude.count > 50)
     show(view)
     assert (view.card.state.tone, view.card.state.text()) == ("good", "Live")
     assert len(curve(view, "acc", "z").strokes.marks) > 0

@@ -98,7 +98,7 @@ def test_a_run_is_armed_and_played_to_its_end(qtbot: QtBot, desk: TargetDesk, ha
     desk.begin(free_run().game())
     assert desk.playing
     assert hand.rows().state is State.READY
-    with qtbot.waitSignals([desk.target_done, desk.run_done], timeout=1000):
+    with qtbot.waitSignals([desk.target_done, desk.run_done]):
         hand.hit()
     assert not desk.playing
     (trial,) = desk.trials
@@ -185,7 +185,7 @@ def test_a_rest_ends_by_itself(study_desk: StudyDesk, hand: Hand, tmp_path: Path
         study_desk.tick()
         return study_desk.step.kind != REST
 
-    qtbot.waitUntil(over, timeout=2000)
+    qtbot.waitUntil(over)
     assert study_desk.step.condition == "b"
 
 

@@ -97,7 +97,7 @@ def test_the_run_card_offers_what_is_possible(owned: Own) -> None:
 def test_the_stop_button_stops(owned: Own, qtbot: QtBot) -> None:
     card = owned(RunCard())
     card.show_run(look("confirm"), playing=True)
-    with qtbot.waitSignal(card.stop_wanted, timeout=1000):
+    with qtbot.waitSignal(card.stop_wanted):
         QTest.mouseClick(card.stop_button, Qt.MouseButton.LeftButton)
 
 
@@ -232,7 +232,7 @@ def test_a_study_gets_a_folder_of_its_own(owned: Own, tmp_path: Path, qtbot: QtB
     setup = owned(StudySetup())
     setup.set_parent(tmp_path)
     (tmp_path / "study").mkdir()
-    with qtbot.waitSignal(setup.create_wanted, timeout=1000) as wanted:
+    with qtbot.waitSignal(setup.create_wanted) as wanted:
         setup.create_button.click()
     folder, plan = wanted.args
     assert folder == tmp_path / "study-2"
@@ -248,7 +248,7 @@ def test_simulated_people_play_the_plan(owned: Own, tmp_path: Path, qtbot: QtBot
     setup.form.set_value(plan)
     setup.people.set_people(codes(1))
     setup.task.set_value(Task(targets=1))
-    with qtbot.waitSignal(setup.simulation.finished, timeout=20000) as finished:
+    with qtbot.waitSignal(setup.simulation.finished) as finished:
         setup.simulation.button.click()
         assert not setup.simulation.button.isEnabled()
     assert (finished.args[0] / "trials.csv").is_file()
@@ -281,11 +281,11 @@ def test_a_form_is_answered_whole_or_not_at_all(owned: Own, qtbot: QtBot, kind: 
         scale.choose(0)
     assert page.left.text() == f"1 of {count} are not answered yet."
     page.scales[0].choose(99)
-    with qtbot.waitSignal(page.answered, timeout=1000) as answered:
+    with qtbot.waitSignal(page.answered) as answered:
         page.save_button.click()
     assert answered.args[0][0] == best
     assert len(answered.args[0]) == count
-    with qtbot.waitSignal(page.answered, timeout=1000) as answered:
+    with qtbot.waitSignal(page.answered) as answered:
         page.skip_button.click()
     assert answered.args[0] == ()
 
@@ -295,7 +295,7 @@ def test_the_preference_may_be_none(owned: Own, qtbot: QtBot) -> None:
     page.ask(StudyPlan(codes(1)), Step(PREFERENCE, "P01", 9))
     assert [button.text() for button in page.choices] == ["position", "speed", NONE]
     for place, liked in ((1, "speed"), (2, "")):
-        with qtbot.waitSignal(page.liked, timeout=1000) as said:
+        with qtbot.waitSignal(page.liked) as said:
             page.choices[place].click()
         assert said.args == [liked]
 
@@ -326,7 +326,7 @@ def test_without_a_run_the_panel_says_what_to_do(panel: ResultsPanel) -> None:
 
 def test_a_study_is_shown_with_its_comparison(panel: ResultsPanel, simulated: Path, qtbot: QtBot) -> None:
     panel.open_file(simulated / "study.json")
-    qtbot.waitUntil(lambda: panel.shown is not None, timeout=20000)
+    qtbot.waitUntil(lambda: panel.shown is not None)
     assert panel.model.rowCount() == 4
     assert panel.headline.text().startswith("Simulated people: Movement time per target with speed is")
     assert "Nobody took part" in panel.notes.text()
@@ -339,7 +339,7 @@ def test_report_and_table_are_written(
     panel: ResultsPanel, simulated: Path, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     panel.open_file(simulated / "study.json")
-    qtbot.waitUntil(lambda: panel.shown is not None, timeout=20000)
+    qtbot.waitUntil(lambda: panel.shown is not None)
     for button, name, start in (
         (panel.report_button, "report.html", "<!DOCTYPE html>"),
         (panel.csv_button, "targets.csv", "# source: Study demo"),
@@ -361,14 +361,14 @@ def test_a_table_of_targets_opens_too(panel: ResultsPanel, tmp_path: Path, qtbot
     path = tmp_path / "some.csv"
     path.write_text(trials_csv(trials), encoding="utf-8")
     panel.open_file(path)
-    qtbot.waitUntil(lambda: panel.shown is not None, timeout=20000)
+    qtbot.waitUntil(lambda: panel.shown is not None)
     assert panel.headline.text() == "P01: 2.00 s per target with a, 4.00 s with b. One person tests nothing."
 
 
 def test_a_file_that_is_no_table_is_refused_in_words(panel: ResultsPanel, tmp_path: Path, qtbot: QtBot) -> None:
     path = tmp_path / "other.csv"
     path.write_text("a,b\n1,2\n", encoding="utf-8")
-    with qtbot.waitSignal(panel.said, timeout=20000) as said:
+    with qtbot.waitSignal(panel.said) as said:
         panel.open_file(path)
     assert said.args[0] == "error"
     assert "no table of trials" in said.args[1]

@@ -63,7 +63,7 @@ def until(page: TargetView, qtbot: QtBot, true: Callable[[], bool]) -> None:
         page.slow_refresh()
         return true()
 
-    qtbot.waitUntil(look, timeout=20000)
+    qtbot.waitUntil(look)
 
 
 def begin(page: TargetView, qtbot: QtBot) -> GameLook:
@@ -182,7 +182,7 @@ def test_escape_stops_wherever_the_focus_is(
     assert isinstance(page, TargetView)
     page.frame.play.control.set_value(PATIENT)
     session.connect_to(Source("simulator", "hand"))
-    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING, timeout=20000)
+    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING)
     page.slow_refresh()
     for focus in (page.frame.scene, page.frame.run.leave_button, window.bar.button):
         begin(page, qtbot)
@@ -207,7 +207,7 @@ def test_another_page_in_front_disarms(
     assert isinstance(page, TargetView)
     page.frame.play.control.set_value(PATIENT)
     session.connect_to(Source("simulator", "hand"))
-    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING, timeout=20000)
+    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING)
     page.slow_refresh()
     begin(page, qtbot)
     window.show_page("live")
@@ -216,7 +216,7 @@ def test_another_page_in_front_disarms(
 
 def test_lost_keys_are_said(live: TargetView, qtbot: QtBot) -> None:
     begin(live, qtbot)
-    qtbot.waitUntil(live.frame.scene.hasFocus, timeout=5000)
+    qtbot.waitUntil(live.frame.scene.hasFocus)
     live.slow_refresh()
     assert live.frame.scene.hint != CLICK
     live.frame.run.leave_button.setFocus()
@@ -227,7 +227,7 @@ def test_lost_keys_are_said(live: TargetView, qtbot: QtBot) -> None:
 def test_what_is_recorded_is_said(live: TargetView, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
     foot = live.frame.foot
     assert "Nothing is recorded" in foot.state.text()
-    with qtbot.waitSignal(live.record_wanted, timeout=1000):
+    with qtbot.waitSignal(live.record_wanted):
         foot.button.click()
     begin(live, qtbot)
     assert session.record(tmp_path / "one.imugui")

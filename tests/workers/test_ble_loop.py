@@ -27,8 +27,8 @@ async def answer() -> str:
 
 def test_the_thread_starts_when_it_is_used_and_is_one(radio: Radio) -> None:
     assert not radio.started
-    assert radio.submit(answer()).result(5) == "bluetooth"
-    assert radio.submit(answer()).result(5) == "bluetooth"
+    assert radio.submit(answer()).result(30) == "bluetooth"
+    assert radio.submit(answer()).result(30) == "bluetooth"
     assert [thread.name for thread in threading.enumerate()].count("bluetooth") == 1
 
 
@@ -36,13 +36,13 @@ def test_stop_cancels_what_runs_and_closes_the_loop(radio: Radio) -> None:
     async def loop() -> asyncio.AbstractEventLoop:
         return asyncio.get_running_loop()
 
-    where = radio.submit(loop()).result(5)
+    where = radio.submit(loop()).result(30)
     waiting = radio.submit(asyncio.sleep(3600.0))
     radio.stop()
     assert where.is_closed()
     assert not radio.started
     with pytest.raises(CancelledError):
-        waiting.result(5)
+        waiting.result(30)
     with pytest.raises(RuntimeError, match="stopped"):
         radio.submit(answer())
     radio.stop()
@@ -55,7 +55,7 @@ def test_stop_waits_for_boards_to_be_left(radio: Radio) -> None:
         await asyncio.sleep(0.05)
         done.append("left")
 
-    radio.submit(radio.claim("A")).result(5)
+    radio.submit(radio.claim("A")).result(30)
     radio.call(radio.leave, "A", farewell())
     radio.stop()
     assert done == ["left"]
@@ -67,15 +67,15 @@ def test_a_board_is_claimed_once_and_free_when_it_was_left(radio: Radio) -> None
     async def farewell() -> None:
         await asyncio.to_thread(gate.wait)
 
-    radio.submit(radio.claim("F0:A")).result(5)
+    radio.submit(radio.claim("F0:A")).result(30)
     with pytest.raises(BoardInUseError):
-        radio.submit(radio.claim("f0:a")).result(5)
+        radio.submit(radio.claim("f0:a")).result(30)
     radio.call(radio.leave, "F0:A", farewell())
     again = radio.submit(radio.claim("F0:A"))
-    assert radio.submit(answer()).result(5)
+    assert radio.submit(answer()).result(30)
     assert not again.done()
     gate.set()
-    again.result(5)
+    again.result(30)
     assert radio.claimed("f0:a")
 
 
@@ -83,9 +83,9 @@ def test_a_farewell_that_fails_frees_the_board(radio: Radio) -> None:
     async def farewell() -> None:
         raise OSError("gone")
 
-    radio.submit(radio.claim("A")).result(5)
+    radio.submit(radio.claim("A")).result(30)
     radio.call(radio.leave, "A", farewell())
-    radio.submit(radio.claim("A")).result(5)
+    radio.submit(radio.claim("A")).result(30)
 
 
 def test_a_result_in_time_and_an_error_pass_through() -> None:

@@ -81,7 +81,7 @@ def test_a_file_has_no_board_and_without_one_nothing_is_kept(session: Session, t
 
 def test_a_board_that_lies_still_gives_its_bias_by_itself(session: Session, qtbot) -> None:
     session.connect_to(Source("simulator", "rest", errors="mpu9250"))
-    qtbot.waitUntil(lambda: session.status().profile == "bias at rest", timeout=15_000)
+    qtbot.waitUntil(lambda: session.status().profile == "bias at rest")
     before = session.attitude.count
     qtbot.waitUntil(lambda: session.attitude.count > before + 400)
     rates = session.attitude.last(200)["gyr"].mean(axis=0)

@@ -142,8 +142,8 @@ def test_verify_starts_from_the_raw_bytes_of_a_port(session: Session, tmp_path: 
 def shown_again(session: Session, qtbot, source: Source, expected: int) -> Rows:
     before = session.attitude.count
     session.connect_to(source)
-    qtbot.waitUntil(lambda: session.status().state is State.ENDED, timeout=20_000)
-    qtbot.waitUntil(lambda: session.attitude.count - before >= expected, timeout=5_000)
+    qtbot.waitUntil(lambda: session.status().state is State.ENDED)
+    qtbot.waitUntil(lambda: session.attitude.count - before >= expected)
     return session.attitude.last(session.attitude.count - before)
 
 
@@ -168,7 +168,7 @@ def test_a_replay_takes_another_filter(session: Session, qtbot, recorded: Path) 
 
 def test_seek_speed_and_pause_never_break_the_clock(session: Session, qtbot, recorded: Path) -> None:
     session.connect_to(Source("replay", str(recorded), speed=4.0))
-    qtbot.waitUntil(lambda: session.player is not None and session.player.position_s > 0.5, timeout=5_000)
+    qtbot.waitUntil(lambda: session.player is not None and session.player.position_s > 0.5)
     player = session.player
     player.pause()
     stood = player.rows["t"][0] + player.position_s
@@ -177,14 +177,14 @@ def test_seek_speed_and_pause_never_break_the_clock(session: Session, qtbot, rec
     player.set_speed(16.0)
     before = session.attitude.count
     player.play()
-    qtbot.waitUntil(lambda: session.status().state is State.ENDED, timeout=10_000)
+    qtbot.waitUntil(lambda: session.status().state is State.ENDED)
     qtbot.waitUntil(lambda: session.attitude.count == session.samples.count)
     rows = session.attitude.last(session.attitude.count - before)
     assert rows["t"][0] == pytest.approx(player.rows["t"][0] + 1.0, abs=0.01)
     assert np.diff(rows["t"]).min() > 0.0
     assert np.allclose(np.linalg.norm(rows["quat"], axis=1), 1.0)
     player.seek(0.0)
-    qtbot.waitUntil(lambda: session.status().state is State.STREAMING, timeout=5_000)
+    qtbot.waitUntil(lambda: session.status().state is State.STREAMING)
 
 
 def test_a_loop_begins_again(session: Session, qtbot, recorded: Path) -> None:
@@ -192,7 +192,7 @@ def test_a_loop_begins_again(session: Session, qtbot, recorded: Path) -> None:
     qtbot.waitUntil(lambda: session.player is not None)
     session.player.set_loop(True)
     rows = len(read_recording(recorded).samples)
-    qtbot.waitUntil(lambda: session.attitude.count > 3 * rows, timeout=10_000)
+    qtbot.waitUntil(lambda: session.attitude.count > 3 * rows)
     assert session.status().missed_rows == 0
 
 
@@ -202,7 +202,7 @@ def test_a_killed_program_loses_a_second_at_most(tmp_path: Path, qtbot) -> None:
     command = [sys.executable, "-m", "imugui", "live", "--simulate", "free", "--rate", "200", "--record", str(folder)]
     program = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     lines = lambda: (folder / SAMPLES).read_bytes().count(b"\n") if (folder / SAMPLES).exists() else 0  # noqa: E731
-    qtbot.waitUntil(lambda: lines() > 600, timeout=20_000)
+    qtbot.waitUntil(lambda: lines() > 600)
     until = time.monotonic()
     program.send_signal(signal.SIGKILL)
     program.wait()
@@ -224,7 +224,7 @@ def test_a_full_disk_ends_the_recording_only(session: Session, qtbot, tmp_path: 
         session.message.connect(lambda _, text: said.append(text))
         session.connect_to(Source("simulator", "free", rate_hz=1000.0))
         assert session.record(disk / "full.imugui")
-        qtbot.waitUntil(lambda: bool(said), timeout=20_000)
+        qtbot.waitUntil(lambda: bool(said))
         assert "is full" in said[0]
         assert session.recording is None
         before = session.samples.count
@@ -310,7 +310,7 @@ def test_reading_a_long_file_can_be_cancelled(session: Session, qtbot, tmp_path:
     line = b"0.01,0.0,0.0,9.81,0.0,0.0,0.0\n"
     path.write_bytes(b"t,ax,ay,az,gx,gy,gz\n" + line * 400_000)
     session.connect_to(Source("replay", str(path)))
-    qtbot.waitUntil(lambda: "% read" in session.status().sentence, timeout=10_000)
+    qtbot.waitUntil(lambda: "% read" in session.status().sentence)
     session.disconnect_source()
     assert session.status().state is State.IDLE
     assert session.samples.count == 0
@@ -321,7 +321,7 @@ def test_a_file_without_samples_is_refused_in_one_line(session: Session, qtbot, 
     path = tmp_path / "odd.bin"
     path.write_bytes(content)
     session.connect_to(Source("replay", str(path)))
-    qtbot.waitUntil(lambda: session.status().state is State.FAILED, timeout=5_000)
+    qtbot.waitUntil(lambda: session.status().state is State.FAILED)
     assert "odd.bin" in session.status().sentence
     assert "\n" not in session.status().sentence
 
@@ -331,5 +331,5 @@ def test_a_huge_sparse_file_is_refused_without_reading_it(session: Session, qtbo
     with path.open("wb") as stream:
         stream.truncate(2 << 30)
     session.connect_to(Source("replay", str(path)))
-    qtbot.waitUntil(lambda: session.status().state is State.FAILED, timeout=5_000)
+    qtbot.waitUntil(lambda: session.status().state is State.FAILED)
     assert "huge.csv" in session.status().sentence

@@ -63,6 +63,11 @@ class Bluez:
         }
         self._methods = properties | self.adapter.methods | self.devices.methods | self.gatt.methods
 
+    @property
+    def serving(self) -> int:
+        """How many calls are not answered yet."""
+        return len(self._tasks)
+
     async def start(self) -> None:
         """Appear on the bus, with the adapter plugged in and switched on."""
         self._running = True

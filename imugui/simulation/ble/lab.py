@@ -17,6 +17,7 @@
         lab.refuse(True); lab.refuse(False)     # no permission: every call is denied
         lab.fail_next("Connect", "Failed", "Input/output error")
         lab.set_rssi(card, -80)                 # dBm
+        lab.pause_bus(True); lab.pause_bus(False)
         lab.kill_bus()                          # the bus itself; only the end of the lab can follow
         lab.remove_board(card)
 
@@ -38,6 +39,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 import threading
 from collections.abc import Callable, Coroutine
 from dataclasses import replace
@@ -47,20 +49,28 @@ from typing import Any, Self, TypeVar
 from bumble.core import BaseBumbleError
 from bumble.device import Connection, Device
 from bumble.hci import Address
-from dbus_fast.aio import MessageBus
+from dbus_fast import Message
 
 from imugui.formats import FORMATS
 from imugui.simulation.ble.airlink import SUPERVISION_S, AirLink, make_controller
-from imugui.simulation.ble.bluez import DENIED, Bluez
+from imugui.simulation.ble.bluez import DENIED, NAME, Bluez
 from imugui.simulation.ble.models import MODELS, Model
 from imugui.simulation.ble.peripheral import Peripheral
-from imugui.simulation.ble.private_bus import PrivateBus
+from imugui.simulation.ble.private_bus import PrivateBus, connect
 from imugui.simulation.ble.tree import BluezError
 from imugui.simulation.board import VirtualBoard
 from imugui.simulation.errors import PRESETS
 
-CALL_S = 10.0
+CALL_S = 30.0
 OURS, THEIRS = "C0:00:00:00:00:01", "C0:00:00:00:00:02"
+SERVICE_IS_THERE = Message(
+    destination="org.freedesktop.DBus",
+    path="/org/freedesktop/DBus",
+    interface="org.freedesktop.DBus",
+    member="NameHasOwner",
+    signature="s",
+    body=[NAME],
+)
 T = TypeVar("T")
 
 
@@ -176,9 +186,9 @@ class BleLab:
         """It is heard again after a silence."""
         self.run(board.wake())
 
-    def hang_up_next(self, board: Peripheral, after_s: float = 0.005) -> None:
-        """The board drops its next connection so long after it was made, s."""
-        self.call(board.hang_up_next, after_s)
+    def hang_up_next(self, board: Peripheral) -> None:
+        """The board drops its next connection during the discovery of services."""
+        self.call(board.hang_up_next)
 
     def leave_range(self, board: Peripheral, after_s: float = SUPERVISION_S) -> None:
         """Carry the board away; the link counts as lost after ``after_s`` s of silence."""
@@ -209,12 +219,16 @@ class BleLab:
         self.call(self.bluez.adapter.plug_in)
 
     def kill_service(self) -> None:
-        """The Bluetooth service crashes; the bus stays."""
-        self.run(self.bluez.stop())
+        """The Bluetooth service crashes; the bus stays, and knows it."""
+        self.run(self._kill_service())
 
     def start_service(self) -> None:
         """Start the Bluetooth service (again): it knows no board."""
         self.run(self._start_service())
+
+    def pause_bus(self, on: bool) -> None:
+        """The bus does nothing for a while, as on a machine that is busy; then it catches up."""
+        self._bus.pause(on)
 
     def kill_bus(self) -> None:
         """The bus crashes, and with it the service."""
@@ -229,6 +243,7 @@ class BleLab:
         self.call(self.bluez.fail_next.__setitem__, member, BluezError(name, text))
 
     async def _set_up(self) -> None:
+        logging.getLogger("bumble").setLevel(logging.ERROR)  # what is on its way when a link goes is lost, as on air
         self.link = AirLink()
         self._ours, self._other = [await self._central(address) for address in (OURS, THEIRS)]
         await self._start_service()
@@ -240,9 +255,16 @@ class BleLab:
         return central
 
     async def _start_service(self) -> None:
-        bus = await MessageBus(bus_address=self.address, negotiate_unix_fd=True).connect()
+        bus = await connect(self.address)
         self.bluez = Bluez(bus, self._ours)
         await self.bluez.start()
+
+    async def _kill_service(self) -> None:
+        await self.bluez.stop()
+        asking = await connect(self.address)
+        while (answer := await asking.call(SERVICE_IS_THERE)) and answer.body[0]:
+            await asyncio.sleep(0.001)
+        asking.disconnect()
 
     async def _add(self, model: Model, address: str, board: VirtualBoard, speed: float) -> Peripheral:
         peripheral = Peripheral(model, self.link, address, board, speed)

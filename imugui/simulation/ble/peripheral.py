@@ -37,7 +37,7 @@ class Peripheral:
         self._form = FORMATS[model.profile.format]
         self._speed = speed
         self._link = link
-        self._hang_up_s: float | None = None
+        self._hangs_up = False
         self._silent = False
         self._tasks: set[asyncio.Task[None]] = set()
         self.controller = make_controller(f"board {address}", link)
@@ -82,9 +82,9 @@ class Peripheral:
         if not self.connected:
             await self.device.start_advertising()
 
-    def hang_up_next(self, after_s: float = 0.005) -> None:
-        """Drop the next connection so long after it was made: within the discovery of services."""
-        self._hang_up_s = after_s
+    def hang_up_next(self) -> None:
+        """Drop the next connection at the first request of the discovery of services."""
+        self._hangs_up = True
 
     async def set_battery(self, percent: int) -> None:
         """Change the level, and tell subscribers."""
@@ -102,17 +102,13 @@ class Peripheral:
 
     def _on_connection(self, connection: Connection) -> None:
         connection.once(connection.EVENT_DISCONNECTION, lambda _reason: self._on_disconnection())
-        if self._hang_up_s is not None:
-            self._spawn(self._hang_up(self._hang_up_s))
-            self._hang_up_s = None
+        if self._hangs_up:
+            self._hangs_up = False
+            connection.once(connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._spawn(self.drop_link()))
 
     def _on_disconnection(self) -> None:
         if not self._silent:
             self._spawn(self.device.start_advertising())
-
-    async def _hang_up(self, after_s: float) -> None:
-        await asyncio.sleep(after_s)
-        await self.drop_link()
 
     def _spawn(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.get_running_loop().create_task(work)

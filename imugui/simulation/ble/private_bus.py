@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import os
+import signal
+import socket
 import subprocess
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
+
+from dbus_fast.aio import MessageBus
 
 from imugui.simulation.ble import DAEMON
 
@@ -22,6 +28,35 @@ CONFIG = """<!DOCTYPE busconfig PUBLIC "-//freedesktop//DTD D-Bus Bus Configurat
   </policy>
 </busconfig>
 """
+
+
+class PatientSocket:
+    """The sending half of a socket that does not block; a full one takes nothing, which is no error.
+
+    dbus-fast would give the whole connection up: then the service is gone because the daemon was kept waiting.
+    """
+
+    def __init__(self, real: socket.socket) -> None:
+        self._real = real
+
+    def send(self, data: memoryview) -> int:
+        """Send what fits; the number of bytes, 0 when the socket is full."""
+        try:
+            return self._real.send(data)
+        except BlockingIOError:
+            return 0
+
+    def sendmsg(self, buffers: Iterable[memoryview], ancillary: Any) -> int:
+        """Send with file descriptors, of which this bus has none to pass on."""
+        return self._real.sendmsg(buffers, ancillary)
+
+
+async def connect(address: str) -> MessageBus:
+    """A connection to a bus that outlives a daemon which does not read for a while. Written for dbus-fast 5."""
+    bus = await MessageBus(bus_address=address, negotiate_unix_fd=True).connect()
+    writer: Any = bus._writer
+    writer.sock = PatientSocket(writer.sock)
+    return bus
 
 
 class PrivateBus:
@@ -55,6 +90,11 @@ class PrivateBus:
             self._before = os.environ.get(VARIABLE)
             os.environ[VARIABLE] = self.address
 
+    def pause(self, on: bool) -> None:
+        """Stop the daemon where it is, or let it go on; nothing is lost."""
+        if self._daemon is not None:
+            self._daemon.send_signal(signal.SIGSTOP if on else signal.SIGCONT)
+
     def kill(self) -> None:
         """Let the bus die as in a crash."""
         if self._daemon is not None:
@@ -64,6 +104,7 @@ class PrivateBus:
     def stop(self) -> None:
         """End the daemon in order and put the variable back."""
         if self._daemon is not None:
+            self.pause(False)
             self._daemon.terminate()
             self._end(self._daemon)
         if self._exported and os.environ.get(VARIABLE) == self.address:
