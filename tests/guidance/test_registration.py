@@ -186,6 +186,7 @@ def test_identity_follows_the_values() -> None:
     ("changes", "said"),
     [
         ({"matrix": [[1, 0, 0], [0, 1, 0], [0, 0, 2]]}, "right angles"),
+        ({"matrix": [[1e300, 0, 0], [0, 1, 0], [0, 0, 1]]}, "right angles"),
         ({"matrix": [[1, 0], [0, 1]]}, "no registration"),
         ({"matrix": [[-1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "right angles"),
         ({"method": "guess"}, "no registration"),
