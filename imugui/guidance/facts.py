@@ -30,6 +30,7 @@ class Facts:
     base_heading: float = math.nan  # rad, 1 sigma that the magnetometer's calibration leaves
     drift: float = math.nan  # rad/s, 1 sigma of the heading without the magnetometer
     turn_share: float = math.nan  # 1 sigma of the gyroscope's scale and cross-axis terms
+    prior_holds: bool = True  # the filter takes the gyroscope for no better than that
     relative: bool = False  # of the tool against a reference board, in that board's frame: up is not known there
     aligned_at: float = math.inf  # the headings of the two drift apart since then; infinite where they do not
 
@@ -42,7 +43,10 @@ class Facts:
     mag_disturbed: bool = False
     shaken: bool = False
     sigma_tilt: float = math.nan  # rad, 1 sigma, when the filter says it
-    sigma_heading: float = math.nan
+    sigma_heading: float = math.nan  # the same; without the magnetometer since the registration, or since earlier
+    heading_before: float = 0.0  # rad, what it said of the heading last, when it says nothing any more
+    heading_growth: float = math.nan  # rad/s, by which sigma_heading grows while the tool is held
+    held_tilt: float = math.nan  # rad, sigma_tilt of a tool that is held: the least since the registration
     turning: float = math.nan  # rad, by how much gyroscope errors have been turned into heading: see turning.Turning
     axis_error: float = 0.0  # rad, of the tool's axis in the box
     tilt_from_vertical: float = math.nan  # rad, of the tool; unknown counts as level, the worst case

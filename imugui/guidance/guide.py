@@ -207,6 +207,8 @@ class Guide:
             twist_deg=math.degrees(aim.twist),
             steadiness_deg_s=math.degrees(float(self._stream.rates(1)[0])),
             heading_age_s=trust.heading_age_s,
+            heading_sigma_deg=math.degrees(trust.heading_sigma),
+            heading_from=trust.heading_from,
             time_to_green_s=progress.time_to_green,
             time_in_green_s=progress.in_green,
             duration_s=progress.duration,

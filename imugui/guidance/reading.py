@@ -28,6 +28,7 @@ class Reading:
 
     ``error_deg`` is the angle between direction and plan, ``medial_deg`` and ``cranial_deg`` its parts in the log map
     at the plan. ``sigma_deg``: the error to expect of it (sigma.py). ``steadiness_deg_s``: how fast the axis moved.
+    ``heading_sigma_deg``: 1 sigma of the heading in it, told by ``heading_from``, a key of sigma.SOURCES.
     ``rows``: first and last attitude number of the hold of which ``direction`` is the mean. ``relative``: it was
     measured against a reference board, so the recording of one board cannot give it again.
     """
@@ -47,6 +48,8 @@ class Reading:
     twist_deg: float = NAN
     steadiness_deg_s: float = NAN
     heading_age_s: float = NAN
+    heading_sigma_deg: float = NAN
+    heading_from: str = ""
     time_to_green_s: float = NAN
     time_in_green_s: float = NAN
     duration_s: float = NAN

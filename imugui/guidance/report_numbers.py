@@ -118,6 +118,8 @@ def values(reading: Reading) -> dict[str, str | int | float]:
         "duration_s": reading.duration_s,
         "overshoots": reading.overshoots,
         "heading_age_s": reading.heading_age_s,
+        "heading_sigma_deg": reading.heading_sigma_deg,
+        "heading_sigma_from": reading.heading_from,
         "frame": FRAME,
         **{f"{name}_{axis}": vector[k] for name, vector in vectors.items() for k, axis in enumerate(FRAME.lower())},
         "t_s": reading.t,

@@ -6,7 +6,8 @@
 - registration: the same tilt error again, when the axes were measured, and what its residual shows;
 - axis: how well the tool's axis is known in the box;
 - psi: the heading's error. It matters only as far as the tool leans from the vertical by theta: a turn by psi moves
-  the axis by psi sin(theta) (guidance-teleop.md B.4). Without a magnetometer
+  the axis by psi sin(theta) (guidance-teleop.md B.4). Without a magnetometer psi is what the filter states, counted
+  from the registration (fusion's ``refer_heading``). A filter that states nothing, or nothing now, leaves
   psi^2 = (drift age)^2 + (share turning)^2, with the age of the registration and the turning since (turning.py).
 
 All parts are rms angles of a direction on the sphere. The errors of a direction have two components; if both are
@@ -17,6 +18,8 @@ within by this model, not a standard deviation of one component: on screen it st
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 
 from imugui.guidance.facts import Facts
 
@@ -45,14 +48,32 @@ def fixed_part(facts: Facts) -> float:
 
 
 def heading_sigma(facts: Facts) -> float:
-    """1 sigma of the heading against the registration's, rad; NaN when it is not known.
+    """1 sigma of the heading against the registration's, rad; NaN when it is not known."""
+    return SOURCES[heading_source(facts)](facts)
 
-    With the magnetometer: what the filter states, else what the calibration leaves, which does not age.
+
+def heading_source(facts: Facts) -> str:
+    """What tells how far the heading may be off, a key of SOURCES: the filter, if it states a figure that holds.
+
+    Without a magnetometer nothing shows an error of scale about the vertical. A filter that takes the gyroscope for
+    better than it is calibrated is then too sure of its heading.
     """
-    if facts.use_mag:
-        return facts.base_heading if math.isnan(facts.sigma_heading) else facts.sigma_heading
+    if not math.isnan(facts.sigma_heading) and (facts.use_mag or facts.prior_holds):
+        return "filter"
+    return "calibration" if facts.use_mag else "drift"
+
+
+def drifted(facts: Facts) -> float:
+    """1 sigma of a heading that drifts, rad; no less than what the filter states, or stated before it fell silent."""
     aged = math.hypot(facts.drift * drift_age(facts), facts.turn_share * facts.turning)
-    return math.hypot(aged, known(facts.sigma_heading))
+    return aged if math.isnan(aged) else max(aged, facts.heading_before)
+
+
+SOURCES: dict[str, Callable[[Facts], float]] = {
+    "filter": lambda facts: facts.sigma_heading,
+    "calibration": lambda facts: facts.base_heading,  # of the magnetometer; it does not age
+    "drift": drifted,
+}
 
 
 def heading_age(facts: Facts) -> float:
@@ -67,19 +88,47 @@ def drift_age(facts: Facts) -> float:
 
 
 def seconds_left(facts: Facts, limit: float) -> float:
-    """Seconds until sigma passes ``limit`` (rad) if the tool stays as it is; 0 when it has, NaN when not known."""
+    """Seconds until sigma passes ``limit`` (rad) if the tool is held as it is; 0 when it has, NaN when not known.
+
+    Where the filter states the heading's sigma, that goes on growing as it grew when the tool was held last, but no
+    slower than a gyroscope drifts soon after a rest (``heading_growth``). Otherwise it grows by the formula of the
+    drift. Doubt of the tilt that comes from moving the tool (``held``) does not count: no registration would cure it.
+    """
     if facts.use_mag:
         return math.inf if axis_sigma(facts) <= limit else 0.0
+    facts = held(facts)
     spare = (limit / COVER) ** 2 - fixed_part(facts) ** 2
-    turned = (lean(facts) * facts.turn_share * facts.turning) ** 2
-    rate = lean(facts) * facts.drift
-    if math.isnan(spare + turned + rate):
+    if math.isnan(spare):
         return math.nan
-    if spare <= turned:
+    if spare <= 0.0:
         return 0.0
-    if rate == 0.0:
+    allowed = math.sqrt(spare) / lean(facts) if lean(facts) > 0.0 else math.inf
+    return (_until_stated if heading_source(facts) == "filter" else _until_drifted)(facts, allowed)
+
+
+def held(facts: Facts) -> Facts:
+    """The same for a tool that has been held for a moment, so that the filter is as sure of its tilt as it can be."""
+    sure = facts.held_tilt < facts.sigma_tilt
+    return replace(facts, sigma_tilt=facts.held_tilt) if sure else facts
+
+
+def _until_stated(facts: Facts, allowed: float) -> float:
+    """Seconds until the heading's sigma, as the filter states it, passes ``allowed`` rad."""
+    if facts.sigma_heading >= allowed:
+        return 0.0
+    return math.inf if facts.heading_growth == 0.0 else (allowed - facts.sigma_heading) / facts.heading_growth
+
+
+def _until_drifted(facts: Facts, allowed: float) -> float:
+    """The same by drift and turning."""
+    turned = facts.turn_share * facts.turning
+    if math.isnan(turned + facts.drift):
+        return math.nan
+    if allowed <= max(turned, facts.heading_before):
+        return 0.0
+    if facts.drift == 0.0:
         return math.inf
-    return max(0.0, math.sqrt(spare - turned) / rate - drift_age(facts))
+    return max(0.0, math.sqrt(allowed**2 - turned**2) / facts.drift - drift_age(facts))
 
 
 def lean(facts: Facts) -> float:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from imugui.fusion.quaternion import Floats, length, rotate
+from imugui.fusion.quaternion import Floats, angle_between, length, rotate
 from imugui.guidance.facts import Facts
 from imugui.guidance.hold import GAP_S, HOLD_S
 from imugui.guidance.turning import Turning
@@ -22,7 +22,11 @@ HALF_S = 0.25
 SHAKEN = 0.7
 """m/s2 of acceleration, mean over HOLD_S: 4 degrees in the direction of gravity, of which a filter with a time
 constant of 3 s takes up some tenths of a degree."""
+HELD = math.radians(3.0)
+"""A tool that was turned no farther since was held."""
 NOT_UNIT = 0.01
+UNSTATED = (0.0, 0.0)
+"""rad, 1 sigma of tilt and heading of a filter that has said nothing since the registration."""
 UNRESTED_DRIFT = math.radians(0.1)
 """rad/s; before it has seen the board at rest a filter knows the gyroscope's bias this well (VQF's own figure)."""
 WARM_DRIFT = math.radians(0.02) / math.sqrt(3.0)
@@ -46,6 +50,9 @@ class Stream:
         self._turning = Turning()
         self._next = 0  # number of the attitude to come
         self._torn = False  # the newest row was not usable
+        self._stated = UNSTATED
+        self._held_tilt = math.nan  # rad, the least sigma_tilt
+        self._growth = 0.0  # rad/s, of sigma_heading when the tool was held last
         self._t = math.nan
         self._arrival = math.nan
         self._rest_t = math.nan  # s, when the filter last saw the board at rest
@@ -105,7 +112,8 @@ class Stream:
 
     def mark(self) -> None:
         """The heading is registered now: errors of it count from here."""
-        self.lost = ""
+        self.lost, self._stated = "", UNSTATED
+        self._held_tilt, self._growth = math.nan, 0.0
         self._turning.reset()
 
     def fill(self, facts: Facts) -> Facts:
@@ -113,7 +121,7 @@ class Stream:
         if len(self.rows) and self.rows["rest"][-1]:
             self._rest_temp_c = facts.temp_c
         recent = self.recent(HOLD_S)
-        newest = self.rows[-1:]
+        tilt, heading = self._state()
         return replace(
             facts,
             arrival=facts.arrival if math.isnan(self._arrival) else self._arrival,
@@ -122,9 +130,28 @@ class Stream:
             turning=facts.turning if facts.relative else self._turning.size,
             mag_disturbed=facts.mag_disturbed or bool(recent["disturbed"].any()),
             shaken=facts.shaken or (not facts.relative and pushed(recent)),
-            sigma_tilt=float(newest["sigma_tilt"][0]) if len(newest) else math.nan,
-            sigma_heading=float(newest["sigma_heading"][0]) if len(newest) else math.nan,
+            sigma_tilt=tilt,
+            sigma_heading=heading,
+            heading_before=self._stated[1],
+            heading_growth=max(facts.drift, self._growth),
+            held_tilt=self._held_tilt,
         )
+
+    def _state(self) -> tuple[float, float]:
+        """1 sigma of tilt and heading as the filter says them, rad, NaN: it does not.
+
+        A filter that has fallen silent since the registration is as little sure of the tilt as it was.
+        """
+        if len(self.rows) == 0:
+            return math.nan, math.nan
+        tilt, heading = self.rows[["sigma_tilt", "sigma_heading"]][-1].tolist()
+        if not math.isnan(tilt + heading):
+            self._stated = (tilt, heading)
+            self._held_tilt = min(tilt, self._held_tilt)  # the first is less than NaN
+            self._growth = growth(self.rows, self._growth)
+        elif self._stated is not UNSTATED:
+            tilt = self._stated[0]
+        return tilt, heading
 
     def _drift(self, facts: Facts) -> float:
         """1 sigma in rad/s of the heading's drift now, from that soon after a rest; of two boards, of both."""
@@ -170,6 +197,19 @@ def _unbroken(rows: Rows, good: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> i
     after_bad = np.flatnonzero(~good)
     after_gap = np.flatnonzero(good & ~((steps >= 0.0) & (steps <= GAP_S)))
     return int(max(after_bad[-1] + 1 if len(after_bad) else 0, after_gap[-1] if len(after_gap) else 0))
+
+
+def growth(rows: Rows, before: float) -> float:
+    """By how much sigma_heading, which is known now, grew in ATTITUDE rows (n,) since it was least, rad/s.
+
+    ``before``: what holds where the tool was turned in them, which makes it grow and shrink, or where they are few.
+    """
+    sigmas = rows["sigma_heading"]
+    least = int(np.nanargmin(sigmas))
+    seconds = float(rows["t"][-1] - rows["t"][least])
+    if seconds < 2 * HALF_S or float(angle_between(rows["quat"][least], rows["quat"][-1])) > HELD:
+        return before
+    return float(sigmas[-1] - sigmas[least]) / seconds
 
 
 def pushed(rows: Rows) -> bool:

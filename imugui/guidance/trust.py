@@ -6,7 +6,16 @@ import math
 from dataclasses import dataclass
 
 from imugui.guidance.facts import Facts
-from imugui.guidance.sigma import COVER, axis_sigma, fixed_part, heading_age, heading_sigma, seconds_left
+from imugui.guidance.sigma import (
+    COVER,
+    axis_sigma,
+    fixed_part,
+    heading_age,
+    heading_sigma,
+    heading_source,
+    held,
+    seconds_left,
+)
 
 __all__ = ["LIMITS", "Facts", "Limits", "Trust", "judge"]
 
@@ -31,7 +40,8 @@ class Trust:
     """The verdict. ``reasons``: what is wrong and what to do, the most important first; empty when ``ok``.
 
     ``blank``: no number may be shown. ``sigma``: expected error of the axis, rad (see sigma.py).
-    ``reference_due_s``: until sigma passes the limit with the tool as it is. NaN: not known.
+    ``heading_from``: what tells ``heading_sigma``, a key of sigma.SOURCES. ``reference_due_s``: until sigma passes the
+    limit with the tool as it is. NaN: not known.
     """
 
     ok: bool
@@ -41,6 +51,7 @@ class Trust:
     age_s: float
     heading_age_s: float
     heading_sigma: float
+    heading_from: str
     reference_due_s: float
 
 
@@ -50,8 +61,8 @@ def judge(facts: Facts, limits: Limits = LIMITS) -> Trust:
     checks = (*_stream(facts, age, limits), *_zero(facts), *_board(facts), *_error(facts, sigma, limits))
     reasons = tuple(sentence for wrong, sentence in checks if wrong)
     blank = not (facts.streaming and age <= limits.blank_s)
-    due = seconds_left(facts, limits.sigma)
-    return Trust(not reasons, reasons, sigma, blank, age, heading_age(facts), heading_sigma(facts), due)
+    heading = heading_age(facts), heading_sigma(facts), heading_source(facts)
+    return Trust(not reasons, reasons, sigma, blank, age, *heading, seconds_left(facts, limits.sigma))
 
 
 def sample_age(facts: Facts) -> float:
@@ -110,12 +121,14 @@ def _error(facts: Facts, sigma: float, limits: Limits) -> Checks:
         return ((True, f"The expected error is not known, because the sensors' errors are not. Calibrate the {part}."),)
     shown = f"{math.degrees(sigma):.1f}°"
     said = f"The expected error has passed {allowed}" + (f": it is {shown}." if sigma > 1.05 * limits.sigma else ".")
-    fixed = COVER * fixed_part(facts)
+    fixed = COVER * fixed_part(held(facts))
     if fixed > limits.sigma:
         residual = facts.registration.residual_deg > 1.0
         cure = (
             "Register again, more exactly." if residual else "Calibrate the accelerometer and the tool's axis better."
         )
+    elif axis_sigma(held(facts)) <= limits.sigma:
+        cure = "Hold the tool still for a moment: the filter is not sure of its tilt while it is moved."
     elif facts.use_mag:
         cure = "Calibrate the magnetometer better, or switch it off and register again."
     else:

@@ -19,6 +19,10 @@ TURN_SHARE = 0.003 / math.sqrt(3.0)
 """1 sigma of scale and cross-axis terms after a good calibration: evenly within 0.3 %."""
 RAW_TURN_SHARE = 0.03 / math.sqrt(3.0)
 """The same without one: the limits of the MPU-9250's datasheet, 3 %."""
+WARM_SHARE = 0.04 / 60.0 / math.sqrt(3.0)
+"""The same, for each kelvin away from where the scale was learnt: the MPU-9250's moves by 4 % at most over 60 K."""
+USUAL_K = 3.0
+"""How far away it counts as where a temperature is not known: a room's."""
 USUAL_TURN_DEG = 90.0
 """The turn to which a profile's error of a turn belongs."""
 
@@ -41,13 +45,14 @@ def profile_facts(
         "base_tilt": base_tilt(profile, factory),
         "base_heading": math.radians(profile.heading_error_deg),
         "drift": drift(profile),
-        "turn_share": turn_share(profile, factory),
+        "turn_share": turn_share(profile, factory, temp_c),
     }
 
 
 def profile_words(profile: Profile, factory: bool = False) -> str:
     """Which profile, in words that stay the same as long as its corrections do."""
     dates = [part.date for part in profile.parts.values()]
+    dates += [profile.gyroscope.matrix_date] if profile.gyroscope else []
     if not dates:
         return "calibrated at the factory" if factory else "no profile"
     return f"{profile.board.title}, calibrated {max(dates)}"
@@ -70,13 +75,26 @@ def drift(profile: Profile) -> float:
     return math.radians(math.hypot(DRIFT_DEG_S, max(measured, default=0.0)))
 
 
-def turn_share(profile: Profile, factory: bool = False) -> float:
-    """1 sigma of the gyroscope's scale and cross-axis terms."""
+def turn_share(profile: Profile, factory: bool = False, temp_c: float = math.nan) -> float:
+    """1 sigma of the gyroscope's scale and cross-axis terms, at ``temp_c`` degrees C if known.
+
+    Learnt ones carry their own sigma, that of the worst element, which holds where they were learnt.
+    """
     gyroscope = profile.gyroscope
     if gyroscope is None or not gyroscope.matrix_method:
         return TURN_SHARE if factory else RAW_TURN_SHARE
+    if not math.isnan(gyroscope.matrix_sigma):
+        away = abs(temp_c - gyroscope.matrix_temp_c)
+        warm = WARM_SHARE * (USUAL_K if math.isnan(away) else away)
+        return min(RAW_TURN_SHARE, math.hypot(gyroscope.matrix_sigma, warm))
     error_deg = 0.0 if math.isnan(gyroscope.turn_error_deg) else gyroscope.turn_error_deg
     return math.hypot(TURN_SHARE, error_deg / USUAL_TURN_DEG)
+
+
+def prior_holds(share: float, params: Any) -> bool:
+    """Whether a filter with these parameters reckons with terms of ``share``, or does not reckon with any."""
+    reckoned = [getattr(params, name) for name in ("matrix_sigma", "matrix_worst") if hasattr(params, name)]
+    return bool(share <= max(reckoned, default=math.inf))
 
 
 def _warning(profile: Profile, now: datetime, use_mag: bool, temp_c: float) -> str:

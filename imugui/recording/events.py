@@ -16,10 +16,12 @@ KINDS = (
     "disconnect",
     "filter",  # another filter, other parameters, magnetometer on or off
     "origin",
+    "heading",  # called right by definition, by a registration: from there on the filter's sigma of it counts
     "restart",  # the filter began again, because what came did not follow what was
     "marker",
     "guidance",  # a registration or a reading of the Guide page
     "game",  # settings, inputs and results of the Target page
+    "note",  # another filter took over from one that no longer believed itself, or that one came back
     "problem",
     "stop",
 )

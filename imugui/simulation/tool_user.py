@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,9 @@ CONTENT, CLUMSY = 0.8 * DEGREE, 0.05 * DEGREE
 LAID_S = 1.2
 """s for which the tool is laid along an axis of the patient."""
 LONGEST_S = 30.0
-"""Time after which the person gives a plan up."""
+"""Time after which the person gives a plan up, since the last registration."""
+PATIENCE_S = 120.0
+"""The same since the plan was begun."""
 
 
 @dataclass(frozen=True)
@@ -59,11 +62,12 @@ class ToolUser:
         errors: Errors = PRESETS["mpu9250-calibrated"],
         rate_hz: float = 100.0,
         filter_name: str = "vqf",
+        params: Any = None,
     ) -> None:
         self.guide, self.method, self._board_facts = guide, method, board_facts
         self.hand = ToolHand(seed, guide.tool_axis)
         self.board = VirtualBoard(self.hand, rate_hz, errors, seed)
-        self.pipeline = Pipeline(filter_name, use_mag=False)
+        self.pipeline = Pipeline(filter_name, params, use_mag=False)
         self._rng = np.random.default_rng(seed)
         heading = self._rng.uniform(0.0, 2 * np.pi)
         cranial = np.array((math.cos(heading), math.sin(heading), 0.0))
@@ -108,6 +112,7 @@ class ToolUser:
         else:
             found = from_mark(self._laid(self.patient[:, 2]), "prone", self.now)
         self.guide.register(found)
+        self.pipeline.refer_heading()
         self.registrations += 1
 
     def _laid(self, way: Floats) -> Floats:
@@ -120,8 +125,8 @@ class ToolUser:
 
     def _reach(self, plan: Plan) -> Taken | None:
         """Follow the target to a plan and take a reading; None when that took too long."""
-        end = self.now + LONGEST_S
-        while self.now < end:
+        end, latest = self.now + LONGEST_S, self.now + PATIENCE_S
+        while self.now < min(end, latest):
             if self.guide.registration is None or self.look.reference_due_s < 2.0:
                 self.register()
                 end = self.now + LONGEST_S

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout
 from imugui.fusion.attitude import CONVENTIONS, euler, euler_reliable
 from imugui.views.controls import clear
 from imugui.views.labels import Chip, heading, muted
-from imugui.views.live_words import UNRELIABLE, quat_words, shown_quat, sigma_words
+from imugui.views.live_words import UNRELIABLE, quat_words, shown_quat, sigma_words, takeover_words
 from imugui.views.readout import Readout
 
 ANGLES = {"Yaw": 2, "Pitch": 1, "Roll": 0}
@@ -31,6 +31,11 @@ class AttitudePanel(QFrame):
         self.sigma = muted("")
         self.sigma.setToolTip("How far tilt and heading may be off, 1 sigma, as the filter itself says")
         self.sigma.hide()
+        self.takeover = Chip(name="Filter")
+        self.takeover.setToolTip("The chosen filter no longer believes itself: another one runs until it does")
+        self.why = muted("")
+        for part in (self.takeover, self.why):
+            part.hide()
         head = QHBoxLayout()
         head.addWidget(heading("Attitude"))
         head.addStretch(1)
@@ -43,7 +48,8 @@ class AttitudePanel(QFrame):
         column.addLayout(head)
         column.addLayout(self._numbers)
         column.addWidget(self.quat)
-        column.addWidget(self.sigma)
+        for part in (self.sigma, self.takeover, self.why):
+            column.addWidget(part)
         self.set_display(convention, decimals)
 
     def set_display(self, convention: str, decimals: int) -> None:
@@ -70,6 +76,15 @@ class AttitudePanel(QFrame):
         words = sigma_words(tilt, heading)
         self.sigma.setText(words)
         self.sigma.setVisible(bool(words))
+
+    def show_note(self, note: str) -> None:
+        """Why another filter has taken over from the chosen one, in its words; "" when none has."""
+        what, why = takeover_words(note)
+        if note:
+            self.takeover.show_state("warn", what)
+            self.why.setText(why)
+        self.takeover.setVisible(bool(note))
+        self.why.setVisible(bool(why))
 
     def blank(self) -> None:
         """There is no attitude."""

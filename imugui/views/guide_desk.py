@@ -106,6 +106,7 @@ class GuideDesk(QObject):
         """Take a registration that was measured just now."""
         self._epoch = self._seen_epoch
         self.guide.register(registration)
+        self._session.refer_heading()
         self._note("registration", {"registration": registration.to_dict()}, registration.rows[-1][1])
 
     @Slot()

@@ -86,6 +86,7 @@ class LiveView(View):
         if alive:
             self.angles.show_sigma(float(rows["sigma_tilt"][0]), float(rows["sigma_heading"][0]))
             self.heading.show_flags(status, bool(rows["rest"][0]))
+        self.angles.show_note(self._filter_note())
         self._stack.setCurrentIndex(0 if status.state is State.IDLE and not alive else 1)
         self.filter.refresh()
         self.heading.setVisible(self.session.relative is None)
@@ -124,6 +125,11 @@ class LiveView(View):
     def view_default(self) -> None:
         """Look from the usual place."""
         self.scene.view_from("default")
+
+    def _filter_note(self) -> str:
+        """Why another filter has taken over for now, on this board or on the one in whose frame it is shown."""
+        boards = filter(None, (self.session, self.session.reference))
+        return next(filter(None, (board.filter_note for board in boards)), "")
 
     def _stale_word(self, rows: Rows) -> str:
         """Why the picture is not live, in words; a paused replay shows where it stands."""

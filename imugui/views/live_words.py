@@ -74,6 +74,12 @@ def quat_words(quat: NDArray[np.float64]) -> str:
     return "  ".join(f"{name} {value:+.3f}".replace("-", "−") for name, value in zip("wxyz", quat, strict=True))
 
 
+def takeover_words(note: str) -> tuple[str, str]:
+    """A filter's note in two parts: what happened, in short, and why, as a sentence."""
+    what, _, why = note.partition(": ")
+    return what, why[:1].upper() + why[1:]
+
+
 def sigma_words(tilt: float, heading: float) -> str:
     """The filter's own 1 sigma, rad, in degrees with two digits at most; "" where it says none."""
     said = [(name, math.degrees(value)) for name, value in (("tilt", tilt), ("heading", heading)) if value == value]

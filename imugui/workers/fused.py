@@ -11,10 +11,10 @@ from imugui.fusion.pipeline import Pipeline
 from imugui.ring import Ring
 from imugui.samples import ATTITUDE, SAMPLE
 from imugui.workers.fusion_worker import AgeCounts, FusionWorker
-from imugui.workers.game_worker import GameWorker
 from imugui.workers.worker import log_file
 
 if TYPE_CHECKING:
+    from imugui.workers.game_worker import GameWorker
     from imugui.workers.relative_worker import RelativeWorker
 
 RING_ROWS = 1 << 17  # two minutes at 1 kHz
@@ -32,6 +32,7 @@ class Fused(QObject):
         name = filter_name if filter_name in FILTERS else DEFAULT_FILTER
         self._fusion = FusionWorker(self.samples, self.attitude, Pipeline(name, params, use_mag=use_mag))
         self._fusion.failed.connect(self._defect)
+        self._fusion.noted.connect(self._tell_note)
         self._game: GameWorker | None = None
         self.relative: RelativeWorker | None = None
         """The attitude in the frame of another board, while it is looked at so."""
@@ -88,6 +89,19 @@ class Fused(QObject):
         self._fusion.replace(Pipeline(name, params, old.correction, use_mag, spike_mask=old.spike_mask), carry_on=True)
 
     @property
+    def filter_note(self) -> str:
+        """Why another filter has taken over from the chosen one for now; empty when none has."""
+        return self._fusion.filter_note
+
+    def refer_heading(self) -> None:
+        """A registration stands on the heading as it is now: see ``Pipeline.refer_heading``.
+
+        Against a reference board nothing is done: there the headings count from the alignment.
+        """
+        if self.relative is None:
+            self._fusion.refer_heading()
+
+    @property
     def mag_updates(self) -> int:
         """New magnetometer measurements that reached the filter since it was set."""
         return self._fusion.pipeline.mag_updates
@@ -104,6 +118,8 @@ class Fused(QObject):
     def game(self) -> GameWorker:
         """The thread that plays the game, started when it is first asked for."""
         if self._game is None:
+            from imugui.workers.game_worker import GameWorker  # start-up time: most sessions play none
+
             self._game = GameWorker(self.attitude, self._note_game)
             self._game.failed.connect(self._defect)
             self._game.start()
@@ -127,6 +143,14 @@ class Fused(QObject):
         for worker in (self._game, self._fusion):
             if worker is not None and worker.isRunning():
                 worker.stop()
+
+    @Slot(str)
+    def _tell_note(self, note: str) -> None:
+        """Another filter has taken over, or ("") the chosen one is back."""
+        from imugui.workers.filter_words import return_words, takeover_words  # start-up time: hardly ever needed
+
+        title = FILTERS[self.filter_name].title
+        self.message.emit(*(("warn", takeover_words(title, note)) if note else ("info", return_words(title))))
 
     @Slot(str)
     def _defect(self, text: str) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from PySide6.QtCore import Signal
 
 from imugui.fusion.pipeline import Pipeline
 from imugui.recording.events import Event
@@ -23,6 +24,7 @@ SHORTEST_TICK_S = 1.0 / 500.0  # the quickest: a block costs more than its rows
 BIN_MS = 0.1
 BINS = 20_000  # ages up to 2 s
 NOW = -1
+BACK = "The chosen filter is back."
 
 Action = Callable[[int], None]
 
@@ -57,8 +59,12 @@ class FusionWorker(Worker):
     so a recording can be computed again exactly.
     """
 
+    noted = Signal(str)  # why another filter has taken over, a sentence; "": the chosen one is back
+
     def __init__(self, samples: Ring, attitude: Ring, pipeline: Pipeline) -> None:
         super().__init__()
+        self.filter_note = ""
+        """Why another filter has taken over; empty while the chosen one runs."""
         self.pipeline = pipeline  # the newest one asked for
         self.ages = AgeCounts()
         self.missed_rows = 0
@@ -70,6 +76,7 @@ class FusionWorker(Worker):
         self.attitude = attitude
         self._count = samples.count
         self._breaks = 0
+        self._referred = False  # a heading was referred since a recording is followed
         self._fresh = threading.Event()
         self._drained = 0.0  # host time of the last tick, s
 
@@ -99,12 +106,27 @@ class FusionWorker(Worker):
 
         self.at(sample, move)
 
+    def look(self, see: Callable[[Pipeline], None]) -> None:
+        """Have the fusion thread call ``see`` with the pipeline that runs, once and between two samples."""
+        self.at(NOW, lambda _: see(self._running))
+
+    def refer_heading(self, sample: int = NOW) -> None:
+        """Call the heading right by definition from that sample on: see ``Pipeline.refer_heading``."""
+
+        def refer(number: int) -> None:
+            self._referred = True
+            self._running.refer_heading()
+            self._note("heading", number, "", {})
+
+        self.at(sample, refer)
+
     def restart(self, sample: int) -> None:
         """Begin again from the accelerometer at that sample: what comes does not follow what was."""
 
         def begin(number: int) -> None:
             self._followed.clear()
             self._running.restart()
+            self.filter_note = ""
             self._note("restart", number, "", {})
 
         self.at(sample, begin)
@@ -121,7 +143,7 @@ class FusionWorker(Worker):
         pipeline = Pipeline.from_state(start.data["pipeline"])
 
         def begin(_: int) -> None:
-            self.pipeline = pipeline
+            self.pipeline, self._referred = pipeline, False
             self._swap(pipeline, anew=True)
 
         self.at(sample, begin)
@@ -131,6 +153,8 @@ class FusionWorker(Worker):
 
     def _as_before(self, event: Event) -> Action:
         def change(_: int) -> None:
+            if event.kind == "heading" and self._referred:
+                return  # a registration that was made by now counts from itself
             self.pipeline = CHANGES[event.kind](self._running, event.data)
             self._swap(self.pipeline, anew=not event.data.get("carry_on", True))
 
@@ -139,6 +163,8 @@ class FusionWorker(Worker):
     def _swap(self, pipeline: Pipeline, anew: bool) -> None:
         """Run this pipeline; with or without the magnetometer, the heading means something else."""
         old, self._running = self._running, pipeline
+        if anew or old.filter_name != pipeline.filter_name:
+            self.filter_note = ""  # nothing has come back: there is another one
         self._breaks += old.restarts - pipeline.restarts + (anew or old.use_mag != pipeline.use_mag)
 
     @property
@@ -233,6 +259,17 @@ class FusionWorker(Worker):
         fused["t_publish"] = now
         self.attitude.push(fused)
         self.ages.add(now - rows["t_arrival"])
+        note = getattr(self._running.filter, "note", "")
+        if note != self.filter_note:
+            self._tell(note)
+
+    def _tell(self, note: str) -> None:
+        """Say so when another filter takes over, and when the chosen one is back; not when only the reason changes."""
+        changed = bool(note) != bool(self.filter_note)
+        self.filter_note = note
+        if changed:
+            self._note("note", self._count, note or BACK, {})
+            self.noted.emit(note)
 
     def _note(self, kind: str, number: int, text: str, data: dict[str, Any]) -> None:
         tap = self.tap

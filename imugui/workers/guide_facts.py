@@ -6,7 +6,7 @@ import math
 import time
 from typing import Any
 
-from imugui.guidance.trust_profile import profile_facts
+from imugui.guidance.trust_profile import prior_holds, profile_facts
 from imugui.ring import Ring
 from imugui.workers.board_profile import BoardProfile
 from imugui.workers.fusion_worker import FusionWorker
@@ -19,6 +19,7 @@ def guide_facts(fusion: FusionWorker, known: BoardProfile | None, samples: Ring,
     newest = samples.last(1)
     temp_c = float(newest["temp_c"][0]) if len(newest) else math.nan
     calibrated = known.calibrated if known else Calibrated()
+    worth = profile_facts(calibrated.profile, calibrated.now, use_mag, temp_c, calibrated.factory)
     return {
         "now": time.perf_counter(),
         "streaming": streaming,
@@ -26,5 +27,6 @@ def guide_facts(fusion: FusionWorker, known: BoardProfile | None, samples: Ring,
         "filter": fusion.pipeline.filter_name,
         "use_mag": use_mag,
         "mag_disturbed": known is not None and known.light == "red",
-        **profile_facts(calibrated.profile, calibrated.now, use_mag, temp_c, calibrated.factory),
+        **worth,
+        "prior_holds": prior_holds(worth["turn_share"], fusion.pipeline.params),
     }

@@ -97,6 +97,7 @@ def report(session: Session, status: Status) -> dict[str, Any]:
         "baud": status.baud,
         "age_ms": session.age_quantiles(),
         "filter": status.filter,
+        "filter_note": status.filter_note,
         "mag_updates": session.mag_updates,
         "mag_trust": status.mag_trust,
         "state": status.state.name.lower(),

@@ -14,7 +14,7 @@ NOT_ALIGNED = (
 LENGTHS = ("base_tilt", "base_heading", "drift")
 """Errors that the two boards make independently of each other."""
 EITHER = ("mag_disturbed", "profile_expired")
-BOTH = ("streaming", "calibrated")
+BOTH = ("streaming", "calibrated", "prior_holds")
 
 
 def relative_facts(tool: dict[str, Any], reference: dict[str, Any], relative: RelativeWorker) -> dict[str, Any]:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-from imugui.workers.board_profile import BoardProfile
-from imugui.workers.fusion_worker import FusionWorker
-from imugui.workers.reader import Reader
 from imugui.workers.status import Status, mag_trust
 from imugui.workers.verdict import State, Verdict
+
+if TYPE_CHECKING:  # start-up time
+    from imugui.workers.board_profile import BoardProfile
+    from imugui.workers.fusion_worker import FusionWorker
+    from imugui.workers.reader import Reader
 
 LOOK_ROWS = 256  # newest rows that the status is judged by
 
@@ -44,6 +47,7 @@ def snapshot(
         mag_norm_ut=norm,
         temp_c=float(newest["temp_c"][0]) if len(newest) else math.nan,
         filter=pipeline.filter_name,
+        filter_note=fusion.filter_note,
         **reader.board_facts,
     )
 

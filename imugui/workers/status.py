@@ -38,6 +38,7 @@ class Status:
     temp_c: float = math.nan
     profile: str = ""
     filter: str = ""
+    filter_note: str = ""  # why another filter has taken over for now
     board: str = ""  # what a wireless board tells of itself: maker, model, firmware
     battery_percent: float = math.nan
     rssi_dbm: float = math.nan  # of the newest advertisement: a link's own signal is not told by most systems

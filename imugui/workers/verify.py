@@ -76,7 +76,7 @@ def verify(path: Path) -> Verification:
         angle,
         made_by,
         recording.warnings,
-        verify_guidance(recording.events, fused["quat"]),
+        verify_guidance(recording.events, fused),
         verify_games(recording.events, fused),
     )
 

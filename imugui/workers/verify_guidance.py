@@ -12,6 +12,7 @@ from imugui.fusion.quaternion import Floats, angle_between, from_matrix
 from imugui.guidance.reading import Reading, reading_from, recompute
 from imugui.guidance.registration import POSITIONS, Registration, from_axes, from_mark, from_origin, mean_axis
 from imugui.recording import Event
+from imugui.samples import Rows
 
 READING = "reading"
 """Text of a "guidance" event whose data hold a reading."""
@@ -28,6 +29,8 @@ class GuidanceCheck:
     reading_difference_deg: float = 0.0
     registrations: int = 0  # of recomputed readings, measured within the recording
     registration_difference_deg: float = 0.0
+    sigmas: int = 0  # of recomputed readings, whose heading's sigma the filter stated
+    sigma_difference_deg: float = 0.0
     problems: tuple[str, ...] = ()
 
     @property
@@ -39,6 +42,8 @@ class GuidanceCheck:
         if self.recomputed:
             text += f": largest difference {self.reading_difference_deg:.3g} deg; {self.registrations} of their "
             text += f"registrations: {self.registration_difference_deg:.3g} deg"
+        if self.sigmas:
+            text += f"; {self.sigmas} of their heading's sigmas: {self.sigma_difference_deg:.3g} deg"
         return " ".join((f"{text}.", *self._left_out(), *self.problems))
 
     def _left_out(self) -> list[str]:
@@ -54,11 +59,13 @@ class GuidanceCheck:
         return said
 
 
-def verify_guidance(events: list[Event], quats: Floats) -> GuidanceCheck:
-    """Compute every reading, and the registration it stands on, from the attitudes (n, 4) of the recording."""
+def verify_guidance(events: list[Event], fused: Rows) -> GuidanceCheck:
+    """Compute every reading, its registration and its heading's sigma from the ATTITUDE rows (n,) of the recording."""
+    quats = fused["quat"]
     found = [event for event in events if event.kind == "guidance" and event.text == READING]
     differences: list[float] = []
     registered: list[float] = []
+    sigmas: list[float] = []
     problems: list[str] = []
     sound = _sound(found, problems)
     own = [(reading, first) for reading, first in sound if not reading.relative]
@@ -66,6 +73,7 @@ def verify_guidance(events: list[Event], quats: Floats) -> GuidanceCheck:
         span = _span(quats, reading.rows, first)
         if span is not None:
             differences.append(recompute(reading, span))
+            sigmas += _sigma_differences(reading, fused[reading.rows[1] - first])
             try:
                 registered.append(_registration_difference(reading, quats, first))
             except (ValueError, StopIteration) as error:
@@ -79,6 +87,8 @@ def verify_guidance(events: list[Event], quats: Floats) -> GuidanceCheck:
         max(differences, default=0.0),
         len(measured),
         max(measured, default=0.0),
+        len(sigmas),
+        max(sigmas, default=0.0),
         tuple(problems),
     )
 
@@ -98,6 +108,17 @@ def _span(quats: Floats, rows: tuple[int, int], first: int) -> Floats | None:
     """The attitudes of these numbers in the ring, or None when the recording does not hold them all."""
     begin, end = rows[0] - first, rows[1] - first + 1
     return quats[begin:end] if 0 <= begin < end <= len(quats) else None
+
+
+def _sigma_differences(reading: Reading, newest: Any) -> list[float]:
+    """Degrees between the stored sigma of the heading and that in the newest ATTITUDE row; none if it is another's.
+
+    Infinite where the filter, computed again, states nothing.
+    """
+    if reading.heading_from != "filter":
+        return []
+    apart = abs(reading.heading_sigma_deg - math.degrees(float(newest["sigma_heading"])))
+    return [math.inf if math.isnan(apart) else apart]
 
 
 def _registration_difference(reading: Reading, quats: Floats, first: int) -> float:

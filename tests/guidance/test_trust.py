@@ -9,6 +9,7 @@ from datetime import UTC, datetime, timedelta
 import numpy as np
 import pytest
 
+from imugui.calibration.learnt import METHOD
 from imugui.calibration.parts import AccelerometerPart, GyroscopePart, MagnetometerPart, NoisePart
 from imugui.calibration.profile import Board, Profile
 from imugui.fusion.quaternion import conjugate, from_rotation_vector, multiply, to_rotation_vector
@@ -21,6 +22,7 @@ from imugui.guidance.trust_profile import (
     RAW_TURN_SHARE,
     TILT_DEG,
     TURN_SHARE,
+    WARM_SHARE,
     profile_facts,
 )
 from imugui.guidance.turning import Turning
@@ -245,6 +247,22 @@ def test_a_gyroscope_matrix_and_a_noise_part_are_used() -> None:
     found = profile_facts(profile(gyroscope=turned, noise=noise), NOW, use_mag=False)
     assert found["turn_share"] == pytest.approx(math.hypot(TURN_SHARE, 0.01))
     assert found["drift"] == pytest.approx(math.hypot(DRIFT_DEG_S, 0.02) * DEGREE)
+
+
+def test_a_learnt_matrix_carries_its_own_sigma_and_grows_with_the_distance_in_temperature() -> None:
+    date, later = (NOW - timedelta(hours=2)).isoformat(), NOW.isoformat()
+    facts = {"matrix_method": METHOD, "matrix_sigma": 0.003, "matrix_date": later, "matrix_temp_c": 25.0}
+    learnt = GyroscopePart("at rest", date, 25.0, **facts)  # type: ignore[arg-type]
+    here = profile_facts(profile(gyroscope=learnt), NOW, use_mag=False, temp_c=25.0)
+    assert here["turn_share"] == pytest.approx(0.003)
+    assert here["profile_words"].endswith(f"calibrated {later}")  # other words: other corrections
+    warm = profile_facts(profile(gyroscope=learnt), NOW, use_mag=False, temp_c=34.0)
+    assert warm["turn_share"] == pytest.approx(math.hypot(0.003, 9.0 * WARM_SHARE))
+    assert not warm["profile_expired"]
+    unknown = profile_facts(profile(gyroscope=learnt), NOW, use_mag=False)
+    assert 0.003 < unknown["turn_share"] < warm["turn_share"] < RAW_TURN_SHARE
+    hot = profile_facts(profile(gyroscope=learnt), NOW, use_mag=False, temp_c=200.0)
+    assert hot["turn_share"] == RAW_TURN_SHARE
 
 
 @pytest.mark.parametrize(

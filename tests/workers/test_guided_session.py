@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from imugui.fusion.self_calibrating_params import ImuguiParams
 from imugui.guidance.facts import Facts
 from imugui.guidance.guide import Guide
 from imugui.guidance.plan import Plan
@@ -45,6 +47,7 @@ class Page:
     def register(self) -> None:
         rows, numbers = self.guide.recent(0.5), self.guide.recent_numbers(0.5)
         self.guide.register(from_origin(rows["quat"], t=float(rows["t"][-1]), rows=(numbers,)))
+        self.session.refer_heading()
 
 
 def captured(session: Session, qtbot) -> Reading:
@@ -53,10 +56,17 @@ def captured(session: Session, qtbot) -> Reading:
     page.guide.confirm_side("left")
     qtbot.waitUntil(lambda: page.refresh() or len(page.guide.recent(0.5)) > 150)
     page.register()
-    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.armed, timeout=20_000)
-    reading = page.guide.capture(session.guide_facts()["now"])
-    assert isinstance(reading, Reading), reading
-    return reading
+    taken: list[Reading] = []
+
+    def take() -> bool:
+        page.refresh()
+        if page.guide.look.armed:
+            reading = page.guide.capture(session.guide_facts()["now"])
+            taken.extend([reading] if isinstance(reading, Reading) else [])
+        return bool(taken)
+
+    qtbot.waitUntil(take)
+    return taken[0]
 
 
 @pytest.fixture
@@ -76,6 +86,32 @@ def test_a_reading_is_computed_again_from_the_recording_to_the_last_digit(record
     assert found.reading_difference_deg == 0.0
     assert found.registration_difference_deg < 1e-6
     assert "1 of 1 readings computed again: largest difference 0 deg" in verify(recorded).sentence
+
+
+def test_a_reading_with_imuguis_own_filter_is_computed_again_with_its_sigma(
+    session: Session, tmp_path: Path, qtbot
+) -> None:
+    """Registered, the filter is told, and what it states from there on is in the reading, and in the proof."""
+    session.set_filter("imugui", use_mag=False)
+    count = session.attitude.count
+    qtbot.waitUntil(lambda: session.attitude.count > count + 400)
+    before = float(session.attitude.last(1)["sigma_heading"][0])
+    folder = tmp_path / "own.imugui"
+    assert session.record(folder)
+    qtbot.waitUntil(lambda: session.recording.rows > 0)
+    reading = captured(session, qtbot)
+    assert reading.heading_from == "filter"
+    assert 0.0 < math.radians(reading.heading_sigma_deg) < before
+    assert session.note("guidance", "reading", {"reading": reading.to_dict()}, reading.rows[1])
+    session.stop_recording()
+    again = verify(folder)
+    assert again.attitude_difference_deg == 0.0
+    assert (again.guidance.reading_difference_deg, again.guidance.sigma_difference_deg) == (0.0, 0.0)
+    assert (again.guidance.recomputed, again.guidance.sigmas) == (1, 1)
+    assert "1 of their heading's sigmas: 0 deg" in again.sentence
+    lines = (folder / EVENTS).read_text().splitlines()
+    (folder / EVENTS).write_text("\n".join(line for line in lines if '"kind": "heading"' not in line) + "\n")
+    assert verify(folder).guidance.sigma_difference_deg > 0.0
 
 
 def test_a_reading_that_claims_other_samples_is_found_out(recorded: Path) -> None:
@@ -128,6 +164,11 @@ def test_a_virtual_board_counts_as_calibrated_only_when_its_errors_are_small(ses
     facts = session.guide_facts()
     assert not facts["calibrated"]
     assert facts["base_tilt"] > 0.03
+    assert facts["prior_holds"]
+    session.set_filter("imugui", ImuguiParams(matrix_worst=0.0), use_mag=False)
+    assert not session.guide_facts()["prior_holds"], "it takes the gyroscope for better than a datasheet's"
+    session.connect_to(AT_REST)
+    assert session.guide_facts()["prior_holds"]
 
 
 def test_a_replay_is_as_trusted_as_the_board_was(recorded: Path, session: Session) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -70,7 +71,7 @@ def test_a_reading_says_that_it_is_relative_and_verify_does_not_claim_it(page: P
     folder = tmp_path / "tool.imugui"
     assert page.session.record(folder)
     qtbot.waitUntil(lambda: page.session.recording.rows > 0)
-    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.armed, timeout=20_000)
+    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.armed)
     reading = page.guide.capture(page.session.guide_facts()["now"])
     assert isinstance(reading, Reading), reading
     assert reading.relative
@@ -87,24 +88,55 @@ def test_before_the_alignment_nothing_is_trusted(pair: tuple[Session, Session], 
     one = Page(pair[0])
     qtbot.waitUntil(lambda: one.refresh() or len(one.guide.recent(0.5)) > 150)
     one.register()
-    one.refresh()
-    assert any("not aligned" in reason for reason in one.guide.look.reasons)
+    qtbot.waitUntil(lambda: one.refresh() or any("not aligned" in reason for reason in one.guide.look.reasons))
     assert not one.guide.look.trusted
 
 
 def test_aligning_anew_or_a_reference_that_begins_anew_ends_the_registration(page: Page, qtbot) -> None:
-    page.refresh()
-    assert page.guide.look.trusted, page.guide.look.reasons
+    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.trusted)
     page.session.set_origin()
-    page.refresh()
-    assert any("begun anew" in reason for reason in page.guide.look.reasons)
+    qtbot.waitUntil(lambda: page.refresh() or any("begun anew" in reason for reason in page.guide.look.reasons))
     page.register()
-    page.refresh()
-    assert page.guide.look.trusted
+    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.trusted)
     page.session.reference.connect_to(TILTED)
     qtbot.waitUntil(lambda: not page.session.relative.aligned)
     page.refresh()
     assert not page.guide.look.trusted
+
+
+def test_the_headings_sigma_of_two_boards_is_of_both_and_counts_from_the_alignment(
+    pair: tuple[Session, Session], qtbot
+) -> None:
+    """Both run imugui's own filter; with another one on the reference nothing is stated, and the drift counts."""
+
+    def stated() -> float:
+        rows = tool.shown.last(1)
+        return float(rows["sigma_heading"][0]) if len(rows) else math.nan
+
+    tool, reference = pair
+    for session in pair:
+        session.set_filter("imugui", use_mag=False)
+    qtbot.waitUntil(lambda: stated() > 0.0)
+    count = tool.shown.count
+    qtbot.waitUntil(lambda: tool.shown.count > count + 400)
+    before = stated()
+    assert tool.set_origin()
+    qtbot.waitUntil(lambda: stated() < 0.5 * before)
+    one = Page(tool)
+    qtbot.waitUntil(lambda: one.refresh() or len(one.guide.recent(0.5)) > 150)
+    one.register()
+    tool.refer_heading()  # as the Guide page does: it counts from the alignment all the same
+    qtbot.waitUntil(lambda: one.refresh() or one.guide.look.heading_age_s > 0.2)
+
+    def own() -> list[float]:
+        return [float(session.attitude.last(1)["sigma_heading"][0]) for session in pair]
+
+    qtbot.waitUntil(lambda: math.hypot(*own()) == pytest.approx(stated(), rel=0.2))
+    one.refresh()
+    assert math.radians(one.guide.look.heading_sigma_deg) >= 0.9 * min(own())
+    reference.set_filter("vqf", use_mag=False)
+    qtbot.waitUntil(lambda: math.isnan(stated()))
+    assert "vqf" in tool.guide_facts()["filter"]
 
 
 def test_a_tilted_reference_is_no_shaken_tool(page: Page, qtbot) -> None:
@@ -118,5 +150,5 @@ def test_a_tilted_reference_is_no_shaken_tool(page: Page, qtbot) -> None:
 def test_a_silent_reference_blanks_the_target(page: Page, qtbot) -> None:
     page.refresh()
     page.session.reference.disconnect_source()
-    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.colour == "blank", timeout=3_000)
+    qtbot.waitUntil(lambda: page.refresh() or page.guide.look.colour == "blank")
     assert not page.guide.look.trusted
