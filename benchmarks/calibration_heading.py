@@ -130,7 +130,8 @@ def main() -> int:
         ratio = figures[-1]["guided"] / figures[-1]["uncalibrated"]
         print(json.dumps({"benchmark": "calibration_heading", "board": seed, **figures[-1], "ratio": ratio}))
     if chosen.write:
-        PAGE.write_text(page(figures), encoding="utf-8")
+        _, mark, learnt = PAGE.read_text(encoding="utf-8").partition("\n## ")  # calibration_learnt makes that part
+        PAGE.write_text(page(figures) + mark + learnt, encoding="utf-8")
     return 0
 
 

@@ -59,6 +59,7 @@ def certificate_rows(profile: Profile, now: datetime, temp_c: float = math.nan) 
         Row("Board", "Name", profile.board.title),
         Row("Board", "Connection", f"{profile.board.transport} {profile.board.address}".strip() or UNKNOWN),
         Row("Board", "Sample rate", _figure(profile.rate_hz, "Hz", 1)),
+        *(Row("Board", label, value) for label, value in _delays(profile.delays_ms)),
     ]
     for name, title in NAMES.items():
         part = profile.parts.get(name)
@@ -102,12 +103,16 @@ def _picture(profile: Profile) -> str:
 
 
 def _common(part: Part) -> list[tuple[str, str]]:
-    temperature = f", at {part.temp_c:.1f} °C" if not math.isnan(part.temp_c) else ""
     return [
         ("Quality", part.quality),
-        ("Calibrated", f"{part.when():%Y-%m-%d %H:%M} UTC{temperature}"),
+        ("Calibrated", _when(part.when(), part.temp_c)),
         ("Method", f"{part.method}, {part.samples} samples"),
     ]
+
+
+def _when(date: datetime, temp_c: float) -> str:
+    temperature = f", at {temp_c:.1f} °C" if not math.isnan(temp_c) else ""
+    return f"{date:%Y-%m-%d %H:%M} UTC{temperature}"
 
 
 def _gyroscope(part: Any) -> list[tuple[str, str]]:
@@ -117,9 +122,20 @@ def _gyroscope(part: Any) -> list[tuple[str, str]]:
         ("Known to", f"{math.degrees(worst):.3f} deg/s (2 sigma)"),
     ]
     if part.matrix_method:
-        lines.append(("Scale and cross-axis", f"from {part.matrix_method}, {_matrix(part.matrix)}"))
-        lines.append(("Error of a turn", _figure(part.turn_error_deg, "deg", 2)))
+        learnt = not math.isnan(part.matrix_sigma)
+        method = part.matrix_method if learnt else f"from {part.matrix_method}"
+        lines.append(("Scale and cross-axis", f"{method}, {_matrix(part.matrix)}"))
+        known = ("Scale known to", f"{100 * part.matrix_sigma:.2f} % (1 sigma of the worst known element)")
+        lines.append(known if learnt else ("Error of a turn", _figure(part.turn_error_deg, "deg", 2)))
+    if part.matrix_date:
+        lines.append(("Scale calibrated", _when(part.matrix_when(), part.matrix_temp_c)))
     return lines
+
+
+def _delays(delays_ms: tuple[float, float] | None) -> list[tuple[str, str]]:
+    if delays_ms is None:
+        return []
+    return [("Delays", f"gyroscope {delays_ms[0]:g} ms, magnetometer {delays_ms[1]:g} ms later (set by hand)")]
 
 
 def _accelerometer(part: Any) -> list[tuple[str, str]]:

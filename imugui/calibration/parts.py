@@ -63,28 +63,42 @@ class Part:
 
     def when(self) -> datetime:
         """The date, with its time zone; ValueError when it is none."""
-        try:
-            when = datetime.fromisoformat(self.date)
-            if not FIRST_YEAR <= when.year <= LAST_YEAR:
-                raise ValueError(self.date)
-        except ValueError:
-            raise ValueError(f"date: {self.date[:40]!r} is no ISO 8601 date") from None
-        return when if when.tzinfo else when.replace(tzinfo=UTC)
+        return date_of(self.date, "date")
 
 
 @dataclass(frozen=True)
 class GyroscopePart(Part):
-    """corrected = matrix @ (raw - bias); bias and its 1 sigma in rad/s; error in deg for a turn (matrix only)."""
+    """corrected = matrix @ (raw - bias); bias and its 1 sigma in rad/s; error in deg for a turn (matrix only).
+
+    ``matrix_sigma``: 1 sigma of the worst known element; ``matrix_date`` is empty where the matrix came with the bias.
+    """
 
     bias: Vector = limited(ZERO, 0.6)
     sigma: Vector = limited(ZERO, 0.6, low=0.0)
     matrix: Matrix = limited(UNIT, 1.5)
     matrix_method: str = ""
     turn_error_deg: float = limited(NAN, 180.0, low=0.0)
+    matrix_sigma: float = limited(NAN, 1.0, low=0.0)
+    matrix_date: str = ""
+    matrix_temp_c: float = limited(NAN, 200.0)
 
     def check(self) -> None:
-        """A gyroscope's matrix is near the unit matrix."""
+        """A gyroscope's matrix is near the unit matrix, and its date is one."""
         near_unit(self.matrix)
+        self.matrix_when()
+
+    @property
+    def scale(self) -> dict[str, Any]:
+        """All that is known of scale and cross-axis terms, by field: for a part with another bias."""
+        names = ("matrix", "matrix_method", "turn_error_deg", "matrix_sigma", "matrix_date", "matrix_temp_c")
+        kept = {name: getattr(self, name) for name in names}
+        if self.matrix_method and not self.matrix_date:
+            kept |= {"matrix_date": self.date, "matrix_temp_c": self.temp_c}
+        return kept
+
+    def matrix_when(self) -> datetime:
+        """The date of scale and cross-axis terms, with its time zone; ValueError when it is none."""
+        return date_of(self.matrix_date, "matrix_date") if self.matrix_date else self.when()
 
 
 @dataclass(frozen=True)
@@ -189,6 +203,17 @@ def checked(item: dataclasses.Field[Any], value: Any) -> Any:
     if not isinstance(value, list | tuple) or len(value) > meta["most"]:
         raise ValueError(f"{item.name}: expected a list of up to {meta['most']}")
     return tuple(_shaped(item.name, one, meta["example"], inside) for one in value)
+
+
+def date_of(text: str, name: str) -> datetime:
+    """An ISO 8601 date with its time zone, else UTC; ValueError, with the field's name, when it is none."""
+    try:
+        when = datetime.fromisoformat(text)
+        if not FIRST_YEAR <= when.year <= LAST_YEAR:
+            raise ValueError(text)
+    except ValueError:
+        raise ValueError(f"{name}: {text[:40]!r} is no ISO 8601 date") from None
+    return when if when.tzinfo else when.replace(tzinfo=UTC)
 
 
 def near_unit(matrix: Matrix) -> None:

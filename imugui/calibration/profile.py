@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from hashlib import sha256
@@ -25,6 +26,8 @@ LIFE_DAYS = {"gyroscope": 30, "accelerometer": 365, "magnetometer": 30, "tempera
 """How long a part is good; mounting and noise do not age."""
 TEMPERATURE_K = {"gyroscope": 10.0, "accelerometer": 20.0, "magnetometer": 20.0}
 """How far from its own temperature a part is good; a temperature model frees the gyroscope from this."""
+SCALE_LIFE_DAYS, SCALE_K = 365, 10.0
+"""The same of the gyroscope's scale and cross-axis terms: the MPU-9250's move by up to 4 % over 60 K, 0.7 % in 10 K."""
 STEEPEST_DIP = 85.0
 """degrees; nearer to a pole the compass has no heading."""
 UNKNOWN_TILT_DEG = 2.0
@@ -58,6 +61,17 @@ class Board:
 
 
 @dataclass(frozen=True)
+class Ageing:
+    """What grows old: since when, for how many days it is good, at which temperature (deg C) and how far from it."""
+
+    name: str
+    when: datetime
+    days: float
+    temp_c: float
+    kelvin: float
+
+
+@dataclass(frozen=True)
 class Profile:
     """The calibrated parts of one board; a part that was never calibrated is None."""
 
@@ -70,6 +84,7 @@ class Profile:
     noise: NoisePart | None = None
     rate_hz: float = NAN
     made_with: str = ""
+    delays_ms: tuple[float, float] | None = None  # of gyroscope and magnetometer, where the user has said them
 
     @property
     def parts(self) -> dict[str, Part]:
@@ -127,23 +142,32 @@ class Profile:
     @property
     def good_until(self) -> datetime | None:
         """When the first part will be too old; None when nothing ages."""
-        ends = [part.when() + timedelta(LIFE_DAYS[name]) for name, part in self.parts.items() if name in LIFE_DAYS]
+        ends = [one.when + timedelta(one.days) for one in self._ageing() if one.days < math.inf]
         return min(ends, default=None)
 
     def warnings(self, now: datetime, temp_c: float = NAN) -> list[str]:
         """Why not to trust it fully now, at ``temp_c`` degrees C: one sentence for each part that is too old or off."""
         said = []
-        for name, part in self.parts.items():
-            days = (now - part.when()) / timedelta(days=1)
+        for one in self._ageing():
+            days = (now - one.when) / timedelta(days=1)
             if days < -1.0:
-                said.append(f"The {name} calibration is dated in the future: is the clock right?")
-            elif days > LIFE_DAYS.get(name, math.inf):
-                said.append(f"The {name} calibration is {days:.0f} days old; {LIFE_DAYS[name]} is its life.")
-            away = abs(temp_c - part.temp_c)
+                said.append(f"The {one.name} calibration is dated in the future: is the clock right?")
+            elif days > one.days:
+                said.append(f"The {one.name} calibration is {days:.0f} days old; {one.days:.0f} is its life.")
+            away = abs(temp_c - one.temp_c)
             # NaN compares False: without temperatures there is nothing to say
-            if away > TEMPERATURE_K.get(name, math.inf) and not (name == "gyroscope" and self.temperature):
-                said.append(f"The {name} was calibrated at {part.temp_c:.0f} deg C, {away:.0f} K from now.")
+            if away > one.kelvin:
+                said.append(f"The {one.name} was calibrated at {one.temp_c:.0f} deg C, {away:.0f} K from now.")
         return said
+
+    def _ageing(self) -> Iterator[Ageing]:
+        for name, part in self.parts.items():
+            free = name == "gyroscope" and self.temperature is not None
+            kelvin = math.inf if free else TEMPERATURE_K.get(name, math.inf)
+            yield Ageing(name, part.when(), LIFE_DAYS.get(name, math.inf), part.temp_c, kelvin)
+        if self.gyroscope is not None and self.gyroscope.matrix_date:
+            part = self.gyroscope
+            yield Ageing("gyroscope's scale", part.matrix_when(), SCALE_LIFE_DAYS, part.matrix_temp_c, SCALE_K)
 
     def _gyr_bias(self, temp_c: float) -> Vector:
         """The measured bias, moved along the model from the temperature it was measured at."""

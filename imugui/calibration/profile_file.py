@@ -12,11 +12,14 @@ from imugui.calibration.parts import NAN, PARTS, Part
 from imugui.calibration.profile import Board, Profile
 from imugui.paths import replace_file
 
-VERSION = 1
+VERSION = 2
+ADDED = {"gyroscope": ("matrix_sigma", "matrix_date", "matrix_temp_c")}
+"""What files of version 1 do not have."""
 MARK = "imugui_profile"
 LARGEST = 1 << 20
 """bytes; a real profile has some thousands."""
 LONGEST_NAME = 300
+LONGEST_DELAYS_MS = (50.0, 200.0)
 
 
 class ProfileError(Exception):
@@ -27,7 +30,7 @@ def to_text(profile: Profile) -> str:
     """The profile as JSON; values that are not known are null."""
     head = {MARK: VERSION, "made_with": f"imugui {__version__}", "board": dataclasses.asdict(profile.board)}
     parts = {name: dataclasses.asdict(part) for name, part in profile.parts.items()}
-    values = _nulls({**head, "rate_hz": profile.rate_hz, **parts})
+    values = _nulls({**head, "rate_hz": profile.rate_hz, "delays_ms": profile.delays_ms, **parts})
     return json.dumps(values, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
@@ -44,7 +47,12 @@ def from_text(text: str) -> Profile:
         raise ProfileError("not a profile of imugui: its version is no number")
     if version > VERSION:
         raise ProfileError(f"made by a newer imugui (profile version {version}, this one reads {VERSION}): update")
-    parts = {name: _part(name, kind, values[name]) for name, kind in PARTS.items() if values.get(name) is not None}
+    added = ADDED if version < VERSION else {}
+    parts = {
+        name: _part(name, kind, values[name], added.get(name, ()))
+        for name, kind in PARTS.items()
+        if values.get(name) is not None
+    }
     return Profile(_board(values.get("board")), **parts, **_rest(values))
 
 
@@ -68,10 +76,10 @@ def load(path: Path) -> Profile:
         raise ProfileError(f"{path.name}: {error}") from None
 
 
-def _part(name: str, kind: type[Part], values: Any) -> Any:
+def _part(name: str, kind: type[Part], values: Any, added: tuple[str, ...]) -> Any:
     if not isinstance(values, dict):
         raise ProfileError(f"{name}: expected named values")
-    names = [item.name for item in dataclasses.fields(kind)]
+    names = [item.name for item in dataclasses.fields(kind) if item.name in values or item.name not in added]
     missing = [one for one in names if one not in values]
     if missing:
         raise ProfileError(f"{name}: {missing[0]} is missing")
@@ -95,7 +103,24 @@ def _rest(values: dict[str, Any]) -> dict[str, Any]:
     rate, made = values.get("rate_hz"), values.get("made_with", "")
     known = isinstance(rate, int | float) and not isinstance(rate, bool) and 0.0 < rate < 1e5
     text = made if isinstance(made, str) and made.isprintable() else ""
-    return {"rate_hz": float(rate) if known and rate is not None else NAN, "made_with": text[:LONGEST_NAME]}
+    return {
+        "rate_hz": float(rate) if known and rate is not None else NAN,
+        "made_with": text[:LONGEST_NAME],
+        "delays_ms": _delays(values.get("delays_ms")),
+    }
+
+
+def _delays(values: Any) -> tuple[float, float] | None:
+    if values is None:
+        return None
+    numbers = isinstance(values, list) and all(type(one) in (int, float) and one >= 0.0 for one in values)
+    if not numbers or len(values) != len(LONGEST_DELAYS_MS) or not _within(values):
+        raise ProfileError("delays_ms: expected the delays of gyroscope and magnetometer in ms")
+    return float(values[0]), float(values[1])
+
+
+def _within(values: list[float]) -> bool:
+    return all(one <= longest for one, longest in zip(values, LONGEST_DELAYS_MS, strict=True))
 
 
 def _nulls(value: Any) -> Any:

@@ -33,8 +33,7 @@ def apply_rest(profile: Profile, found: RestResult, look: Look) -> Profile:
     """A new gyroscope bias; scale and cross-axis terms that were measured before stay."""
     part, old = gyroscope_part(found), profile.gyroscope
     if old is not None:
-        kept = {name: getattr(old, name) for name in ("matrix", "matrix_method", "turn_error_deg")}
-        part = dataclasses.replace(part, **kept)
+        part = dataclasses.replace(part, **old.scale)
     return profile.with_part(part)
 
 

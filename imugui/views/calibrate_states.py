@@ -7,8 +7,8 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Any
 
-from imugui.calibration.parts import Part
-from imugui.calibration.profile import LIFE_DAYS, Board, Profile
+from imugui.calibration.parts import GyroscopePart, Part
+from imugui.calibration.profile import LIFE_DAYS, SCALE_LIFE_DAYS, Board, Profile
 from imugui.views.calibrate_parts import PARTS, PartState
 from imugui.views.calibrate_trust import Field
 from imugui.workers.session import Session
@@ -73,11 +73,16 @@ def _state(name: str, profile: Profile | None, now: datetime) -> PartState:
 
 def _tone(name: str, part: Part, now: datetime) -> tuple[str, str]:
     days = (now - part.when()).total_seconds() / 86400.0
-    return OLD if days > LIFE_DAYS.get(name, math.inf) else _TONES[part.quality]
+    old = days > LIFE_DAYS.get(name, math.inf)
+    if isinstance(part, GyroscopePart):
+        old |= (now - part.matrix_when()).days > SCALE_LIFE_DAYS
+    return OLD if old else _TONES[part.quality]
 
 
 def _gyr(part: Any, profile: Any) -> str:
     drift = 60.0 * 2.0 * max(part.sigma) / DEGREE
+    if not math.isnan(part.matrix_sigma):
+        return f"Drifts by at most {drift:.1f}° a minute; scale learnt in motion, to {100 * part.matrix_sigma:.1f} %"
     scale = "" if math.isnan(part.turn_error_deg) else f"; {part.turn_error_deg:.1f}° in a turn"
     return f"Drifts by at most {drift:.1f}° a minute{scale}"
 

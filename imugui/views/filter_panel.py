@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QCheckBox, QFrame, QToolButton, QVBoxLayout, QWidget
 
-from imugui.fusion import FILTERS, VQF_MISSING
+from imugui.fusion import FILTER_TITLES, FILTERS, VQF_MISSING
 from imugui.views import theme
 from imugui.views.filters import use_magnetometer, use_params, use_spike_mask
-from imugui.views.form import Form
 from imugui.views.labels import muted
 from imugui.views.settings_store import SettingsStore
 from imugui.workers.session import Session
+
+if TYPE_CHECKING:
+    from imugui.views.filter_board import FilterBoard
+    from imugui.views.form import Form
 
 
 class FilterPanel(QFrame):
@@ -25,6 +28,7 @@ class FilterPanel(QFrame):
         self._session = session
         self._settings_store = settings_store
         self.form: Form | None = None
+        self.board: FilterBoard | None = None
         self._filter = ""
         self.head = QToolButton()
         self.head.setProperty("role", "quiet")
@@ -61,8 +65,11 @@ class FilterPanel(QFrame):
         """Follow the session."""
         if self._session.filter_name != self._filter:
             self._take_filter()
-        elif self.form is not None and self.form.value() != self._session.filter_params:
-            self.form.set_value(self._session.filter_params)
+        elif self.form is not None and self.board is not None:
+            self.form.set_presets(self._presets())
+            if self.form.value() != self._session.filter_params:
+                self.form.set_value(self._session.filter_params)
+            self.board.refresh()
         for box, on in ((self.mag, self._session.use_mag), (self.spikes, self._session.spike_mask)):
             box.blockSignals(True)
             box.setChecked(on)
@@ -70,15 +77,32 @@ class FilterPanel(QFrame):
 
     def _take_filter(self) -> None:
         self._filter = self._session.filter_name
-        kind = FILTERS[self._filter]
-        self.head.setText(f"{kind.title} filter")
-        self.head.setAccessibleName(f"Parameters of the {kind.title} filter")
+        title = FILTER_TITLES[self._filter]
+        self.head.setText(f"{title} filter")
+        self.head.setAccessibleName(f"Parameters of the {title} filter")
         if self.form is not None:
             self._column.removeWidget(self.form)
             self.form.deleteLater()
-        self.form = Form(self._session.filter_params, kind.PRESETS)
+            self.form = None
+        if self.head.isChecked():
+            self._make_form()
+
+    def _make_form(self) -> None:
+        from imugui.views.form import Form  # start-up time: made when it is first unfolded
+
+        if self.board is None:
+            from imugui.views.filter_board import FilterBoard
+
+            self.board = FilterBoard(self._session)
+            self._column.addWidget(self.board)
+        self.form = Form(self._session.filter_params, self._presets())
         self.form.changed.connect(self._params_changed)
         self._column.addWidget(self.form)
+        self.board.refresh()
+
+    def _presets(self) -> dict[str, Any]:
+        """The filter's presets; none of them changes the delays of the connected board."""
+        return {name: self._session.board_params(one) for name, one in FILTERS[self._filter].PRESETS.items()}
 
     @Slot(object)
     def _params_changed(self, params: Any) -> None:
@@ -94,5 +118,7 @@ class FilterPanel(QFrame):
 
     @Slot(bool)
     def _unfold(self, on: bool) -> None:
+        if on and self.form is None:
+            self._make_form()
         self._body.setVisible(on)
         self.head.setArrowType(Qt.ArrowType.DownArrow if on else Qt.ArrowType.RightArrow)

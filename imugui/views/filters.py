@@ -24,9 +24,9 @@ def use_filter(session: Session, settings_store: SettingsStore, name: str) -> No
 
 
 def use_params(session: Session, settings_store: SettingsStore, params: Any) -> None:
-    """Give the present filter other parameters."""
-    settings_store.keep_filter(session.filter_name, dataclasses.asdict(params))
-    session.set_filter(session.filter_name, params, session.use_mag)
+    """Give the present filter other parameters; the delays of the connected board are kept with its profile."""
+    if session.set_params(params):
+        settings_store.keep_filter(session.filter_name, dataclasses.asdict(session.general_params(params)))
 
 
 def use_spike_mask(session: Session, settings_store: SettingsStore, on: bool) -> None:

@@ -80,6 +80,12 @@ class Form(QWidget):
             editor.widget.blockSignals(False)
         self._show_preset()
 
+    def set_presets(self, presets: Mapping[str, Any]) -> None:
+        """Give the presets, whose names stay, other values."""
+        if presets != self._presets:
+            self._presets = dict(presets)
+            self._show_preset()
+
     def preset(self) -> str:
         """Name of the preset whose values are shown, or "Custom"."""
         return next((name for name, preset in self._presets.items() if preset == self._value), CUSTOM)

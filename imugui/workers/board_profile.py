@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from imugui.calibration.alarm import FieldAlarm
-from imugui.calibration.profile import Board, Profile
+from imugui.calibration.profile import Board, Profile, now_utc
 from imugui.calibration.profile_file import ProfileError
 from imugui.calibration.profile_store import ProfileStore
-from imugui.calibration.rest import auto_bias
+from imugui.formats.families import Delays, known_delays
 from imugui.fusion.correction import Correction
 from imugui.samples import Rows
 from imugui.workers.recorded_profile import Calibrated, calibrated_then
 from imugui.workers.serial_transport import serial_number
 from imugui.workers.transport import Source
+
+if TYPE_CHECKING:
+    from imugui.calibration.alarm import FieldAlarm
+    from imugui.calibration.rest import RestResult
 
 START_UP_S = 12.0  # how long after connecting a board that lies still gives its gyroscope bias by itself
 TRY_EVERY_S = 1.0
@@ -38,6 +42,19 @@ def board_of(source: Source) -> Board:
     return Board()
 
 
+@dataclass(frozen=True)
+class BoardDelays:
+    """How late a board's values are: what its user says, what the table says; None where nothing was said."""
+
+    own: Delays | None = None
+    table: Delays | None = None
+
+    @property
+    def used(self) -> Delays | None:
+        """Those in use; None: the filter's own parameters are."""
+        return self.own or self.table
+
+
 class BoardProfile:
     """The profile in use. Told of rows and time by the session; writes a file only when told to keep a profile."""
 
@@ -49,7 +66,18 @@ class BoardProfile:
         self._tried = -math.inf
         self.biased = False  # the board lay still after connecting and gave its gyroscope bias by itself
         self._bias_known = source.transport == "replay"
+        self._rest: tuple[RestResult, str] | None = None  # that bias, and when
         self._source = source
+
+    @property
+    def turn_share(self) -> float | None:
+        """1 sigma of what is left of the gyroscope's scale and cross-axis terms; None where nobody measured them."""
+        gyroscope = self.best.gyroscope
+        if not self.calibrated.factory and (gyroscope is None or not gyroscope.matrix_method):
+            return None
+        from imugui.guidance.trust_profile import turn_share  # start-up time
+
+        return turn_share(self.best, self.calibrated.factory)
 
     def load(self) -> list[str]:
         """Find the board's profile; returns a sentence for each thing the user should know."""
@@ -69,6 +97,30 @@ class BoardProfile:
             self.store.save(profile)
         self._use(profile)
 
+    def keep_delays(self, delays_ms: tuple[float, float] | None) -> None:
+        """Save what the user says of the board's delays, None for nothing; all else goes on. Raises OSError."""
+        profile = replace(self.profile or Profile(self.board), delays_ms=delays_ms)
+        self.store.save(profile)
+        self.profile = profile
+
+    def delays(self, board_format: str) -> BoardDelays:
+        """What is known of the delays of this board, which speaks that format."""
+        said = self.profile.delays_ms if self.profile else None
+        real = self._source.transport in ("serial", "ble")
+        table = known_delays(board_format, self._source.options.family) if real else None
+        return BoardDelays(Delays(*said, "set for this board") if said else None, table)
+
+    @property
+    def best(self) -> Profile:
+        """The profile, with the bias that the board gave at rest after connecting."""
+        profile = self.profile or Profile(self.board)
+        if self._rest is None or not self.biased:
+            return profile
+        from imugui.calibration.build import gyroscope_part  # start-up time
+
+        part = gyroscope_part(self._rest[0], date=self._rest[1])
+        return profile.with_part(replace(part, **profile.gyroscope.scale) if profile.gyroscope else part)
+
     def forget(self) -> None:
         """Use no profile any more, and delete its file; raises OSError."""
         self.store.remove(self.board)
@@ -83,10 +135,13 @@ class BoardProfile:
         if self._bias_known or connected_s > START_UP_S or connected_s - self._tried < TRY_EVERY_S:
             return None
         self._tried = connected_s
+        from imugui.calibration.rest import auto_bias  # start-up time
+
         found = auto_bias(rows)
         if not found.accepted:
             return None
         self._bias_known = self.biased = True
+        self._rest = found, now_utc()
         return replace(self.correction(found.temp_c), gyr_bias=found.bias)
 
     def watch(self, rows: Rows) -> str:
@@ -107,7 +162,7 @@ class BoardProfile:
     @property
     def words(self) -> str:
         """What is in use, for the status line; "" when nothing is."""
-        parts = [self.profile.board.title] if self.profile else []
+        parts = [self.profile.board.title] if self.profile and self.profile.parts else []
         return " + ".join(parts + ["bias at rest"] * self.biased)
 
     @property
@@ -123,4 +178,6 @@ class BoardProfile:
         self.profile, self.alarm, self.biased = profile, None, False
         part = profile.magnetometer if profile else None
         if part is not None and part.field_ut > 0.0:
+            from imugui.calibration.alarm import FieldAlarm  # start-up time
+
             self.alarm = FieldAlarm(part.field_ut, part.dip_deg if np.isfinite(part.dip_deg) else None)

@@ -6,8 +6,9 @@ import math
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,50 +21,35 @@ from imugui.fusion import DEFAULT_FILTER
 from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
 from imugui.fusion.quaternion import multiply
-from imugui.simulation.motions import MOTIONS
 from imugui.workers import TRANSPORTS
-from imugui.workers.ble_loop import Radio
-from imugui.workers.ble_scan import Scan, Sighting
-from imugui.workers.ble_transport import BleTransport
-from imugui.workers.board_profile import START_UP_S, BoardProfile, board_of
-from imugui.workers.fused import RING_ROWS, Fused
+from imugui.workers.bluetooth import Bluetooth
+from imugui.workers.board_profile import START_UP_S, BoardDelays, BoardProfile, board_of
+from imugui.workers.fused import RING_ROWS
 from imugui.workers.player import SPEEDS, Player
-from imugui.workers.reader import Reader
 from imugui.workers.record_control import RecordControl
 from imugui.workers.recorder import LOW_DISK, RecordingStatus, disk_words
-from imugui.workers.replay_transport import ReplayTransport
 from imugui.workers.serial_transport import Port, list_ports
-from imugui.workers.simulator_transport import SimulatorTransport
 from imugui.workers.snapshot import LOOK_ROWS, fitted_rate_hz, snapshot
 from imugui.workers.status import RelativeStatus, Status
 from imugui.workers.transport import Source
+from imugui.workers.tuned import Tuned
 from imugui.workers.verdict import Facts, State, Verdict, judge, oddity
 
+if TYPE_CHECKING:  # start-up time
+    from imugui.workers.ble_loop import Radio
+    from imugui.workers.ble_scan import Scan, Sighting
+    from imugui.workers.reader import Reader
+
 __all__ = [
-    "LOW_DISK",
-    "MOTION_TITLES",
-    "SPEEDS",
-    "Options",
-    "Player",
-    "Port",
-    "RecordingStatus",
-    "RelativeStatus",
-    "Scan",
-    "Session",
-    "Sighting",
-    "Source",
-    "State",
-    "Status",
-]
+    "LOW_DISK", "SPEEDS", "BoardDelays", "Options", "Player", "Port", "RecordingStatus", "RelativeStatus",
+    "Scan", "Session", "Sighting", "Source", "State", "Status",
+]  # fmt: skip
 
 PATIENCE_S = 1.0  # how long the window waits for a port that is being opened to be left
 START_UP_ROWS = 6000  # newest rows in which a still span is looked for
 
-MOTION_TITLES = {name: motion.title for name, motion in MOTIONS.items()}
-"""Motions of the virtual board, by name."""
 
-
-class Session(Fused):
+class Session(Tuned):
     """One run of the program with its connection. All methods are called in the main thread."""
 
     state_changed = Signal(object)  # State
@@ -81,11 +67,9 @@ class Session(Fused):
         ``radio``: Bluetooth, shared by all sessions of a program; its owner stops it.
         """
         super().__init__(filter_name, params, use_mag)
-        self.radio = radio or Radio()
-        self._own_radio = radio is None
+        self.bluetooth = Bluetooth(radio)
         self._folder = None if profiles else tempfile.TemporaryDirectory(prefix="imugui-", ignore_cleanup_errors=True)
         self.profiles = profiles or ProfileStore(Path(self._folder.name if self._folder else ""))
-        self._known: BoardProfile | None = None
         self._connected = 0.0
         self._watched = 0
         self._reader: Reader | None = None
@@ -93,6 +77,7 @@ class Session(Fused):
         self._record = RecordControl(self.samples, self.attitude, self._fusion)
         self._reference: Session | None = None
         self._beside: list[Session] = []
+        self._beside_of: Session | None = None
         self._origin: tuple[float, ...] | None = None
         self._zeroed: bool | None = None  # what the user did last about the origin; None: a recording may have one
         self._first_row = 0
@@ -104,15 +89,17 @@ class Session(Fused):
     def connect_to(self, source: Source) -> None:
         """Leave the present source and read this one; problems come as a state and in words, never as exceptions."""
         self.disconnect_source()
-        self._transport = TRANSPORTS[source.transport](source, self.radio)
+        kind = TRANSPORTS[source.transport]
+        self._transport = kind(source, self.radio) if getattr(kind, "wireless", False) else kind(source)
         self._first_row = self.samples.count
         self.reset_ages()
         self._fusion.missed_rows = 0
         self._origin, self._zeroed = None, None
         self._know(source)
+        from imugui.workers.reader import Reader  # start-up time
+
         self._reader = Reader(source, self._transport, self.samples, self._fusion)
-        if isinstance(self._transport, ReplayTransport):
-            self._transport.room = self._room
+        self._transport.room = self._room
         self._reader.changed.connect(self._link_changed)
         self._reader.told.connect(self.message)
         self._reader.failed.connect(self._defect)
@@ -125,8 +112,7 @@ class Session(Fused):
         """Stop reading, and end a recording; the rings keep what was received."""
         self.stop_recording()
         if self._reader is not None:
-            if isinstance(self._transport, ReplayTransport | BleTransport):
-                self._transport.cancel()
+            self._transport.cancel()
             reader, self._reader, self._transport = self._reader, None, None
             for signal in (reader.changed, reader.told, reader.failed):
                 signal.disconnect()
@@ -137,14 +123,15 @@ class Session(Fused):
 
     def close(self) -> None:
         """Stop every thread, and those of the sessions beside this one."""
-        for session in self._beside:
+        for session in tuple(self._beside):
             session.close()
+        if self._beside_of is not None and self in self._beside_of._beside:  # its memory is given back
+            self._beside_of._beside.remove(self)
         self.disconnect_source()
         for reader in self._leaving:
             reader.stop()
         self._stop_threads()
-        if self._own_radio:
-            self.radio.stop()
+        self.bluetooth.stop()
         if self._folder is not None:
             self._folder.cleanup()
 
@@ -152,6 +139,11 @@ class Session(Fused):
     def source(self) -> Source | None:
         """What is connected, or None."""
         return self._reader.source if self._reader else None
+
+    @property
+    def radio(self) -> Radio:
+        """Bluetooth's thread."""
+        return self.bluetooth.radio
 
     def serial_ports(self) -> list[Port]:
         """Serial ports of this computer."""
@@ -166,14 +158,14 @@ class Session(Fused):
     @property
     def hand_turned(self) -> bool:
         """True while the virtual board waits to be turned by the mouse."""
-        return isinstance(self._transport, SimulatorTransport) and self._transport.hand is not None
+        return getattr(self._transport, "hand", None) is not None
 
     def turn_board(self, dx_rad: float, dy_rad: float, viewer: NDArray[np.float64]) -> None:
         """Turn the virtual board as a mouse drags it: right by dx, down by dy, rad.
 
         ``viewer`` (4,) is the rotation from the viewer's axes (x right, y up, z to the eye) to those of ``shown``.
         """
-        hand = self._transport.hand if isinstance(self._transport, SimulatorTransport) else None
+        hand = getattr(self._transport, "hand", None)
         if hand is not None:
             hand.viewer = viewer if self.relative is None else multiply(self.relative.to_earth, viewer)
             hand.turn(dx_rad, dy_rad)
@@ -182,7 +174,9 @@ class Session(Fused):
 
     def beside(self) -> Session:
         """A session for another board: with the same filter, profiles and Bluetooth."""
-        session = Session(self.filter_name, self.filter_params, self.use_mag, self.profiles, self.radio)
+        params = self.general_params(self.filter_params)
+        session = Session(self.filter_name, params, self.use_mag, self.profiles, self.radio)
+        session._beside_of = self
         self._beside.append(session)
         return session
 
@@ -249,6 +243,14 @@ class Session(Fused):
         """Delete the connected board's profile, and use none."""
         return self._change_profile(lambda known: known.forget())
 
+    def keep_learnt(self) -> bool:
+        """Keep in the board's profile what the filter has learnt; False, and a message, where that cannot be done."""
+        profile = self._taught()
+        if profile is None or not self.apply_profile(replace(profile, rate_hz=self.rate_hz or profile.rate_hz)):
+            return False
+        self.message.emit("info", "What was learnt of the gyroscope is in the profile of this board, and in use.")
+        return True
+
     def _change_profile(self, change: Callable[[BoardProfile], None]) -> bool:
         if self._known is None:
             self.message.emit("warn", "Connect a board first: a profile belongs to a board.")
@@ -264,7 +266,7 @@ class Session(Fused):
 
     def _know(self, source: Source) -> None:
         """Use the profile of the board behind a source."""
-        self._known = BoardProfile(self.profiles, source)
+        self._known, self._learning, self._format = BoardProfile(self.profiles, source), None, ""
         for warning in self._known.load():
             self.message.emit("warn", warning)
         self._connected, self._watched = time.perf_counter(), self.attitude.count
@@ -272,7 +274,7 @@ class Session(Fused):
 
     def _use(self, correction: Correction, carry_on: bool) -> None:
         """Fuse with this correction from now on; not ``carry_on``: from the accelerometer and field, anew."""
-        chosen = self.filter_name, self.filter_params, correction, self.use_mag
+        chosen = self.filter_name, self.board_params(self.filter_params), correction, self.use_mag
         pipeline = Pipeline(*chosen, self._origin, self.spike_mask)
         self._fusion.replace(pipeline, carry_on)
 
@@ -282,6 +284,7 @@ class Session(Fused):
             return
         rows, self._watched, _ = self.attitude.since(self._watched)
         self._known.watch(rows)
+        self._watch_learning(rows, now)
         connected = now - self._connected
         if connected < START_UP_S:
             raw = self.samples.last(min(START_UP_ROWS, self.samples.count - self._first_row))
@@ -335,7 +338,7 @@ class Session(Fused):
     @property
     def player(self) -> Player | None:
         """Play, pause, seek and speed, while a file is the source."""
-        return self._transport.player if isinstance(self._transport, ReplayTransport) else None
+        return getattr(self._transport, "player", None)
 
     # status
 
@@ -376,6 +379,7 @@ class Session(Fused):
         gone = found.transport == "serial" and found.address == self._reader.source.address
         if self._known.board.key != found.key and not gone:
             self._know(self._reader.found)
+        self._follow_board(self._reader.intake.format)
         self._announce()
 
     @Slot(str)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from datetime import UTC, datetime
 from xml.etree import ElementTree
 
@@ -10,6 +11,7 @@ import pytest
 
 from imugui.calibration.certificate import NOTE, certificate_html, certificate_rows
 from imugui.calibration.coverage_picture import coverage_svg, place
+from imugui.calibration.learnt import METHOD
 from imugui.calibration.parts import AccelerometerPart, GyroscopePart, MagnetometerPart, NoisePart
 from imugui.calibration.profile import Board, Profile
 
@@ -113,3 +115,21 @@ def test_the_halves_lie_side_by_side_and_nothing_falls_out() -> None:
         assert 10 <= y <= 170
         assert (x < 170) == bool(way[2] >= 0)
     assert place(np.array([0.0, 0.0, 1.0]))[0] < place(np.array([0.0, 0.0, -1.0]))[0]
+
+
+def test_a_scale_that_was_learnt_tells_how_when_and_how_well() -> None:
+    part = GyroscopePart("at rest", DATE, 25.0, 500, "good", bias=(0.01, -0.02, 0.03))
+    learnt = replace(
+        part, matrix_method=METHOD, matrix_sigma=0.0034, matrix_date="2026-11-10T08:30:00+00:00", matrix_temp_c=27.0
+    )
+    found = values(replace(FULL, gyroscope=learnt, delays_ms=(5.9, 1.3)))
+    assert found["Gyroscope/Method"] == "at rest, 500 samples"
+    assert found["Gyroscope/Scale and cross-axis"].startswith("learnt in motion by the imugui filter, scale +0.00")
+    assert found["Gyroscope/Scale known to"] == "0.34 % (1 sigma of the worst known element)"
+    assert found["Gyroscope/Scale calibrated"] == "2026-11-10 08:30 UTC, at 27.0 °C"
+    assert found["Board/Delays"] == "gyroscope 5.9 ms, magnetometer 1.3 ms later (set by hand)"
+    assert "Gyroscope/Error of a turn" not in found
+    guided = values(replace(FULL, gyroscope=replace(part, matrix_method="turns", turn_error_deg=0.4)))
+    assert guided["Gyroscope/Error of a turn"] == "0.40 deg"
+    assert "Gyroscope/Scale known to" not in guided
+    assert "Board/Delays" not in guided

@@ -36,6 +36,7 @@ FULL = Profile(
     TemperaturePart("linear", DATE, coefficients=((0.0, 0.0, 0.0), (0.1, 0.0, 0.0))),
     NoisePart("Allan deviation", DATE, rate_hz=99.3),
     rate_hz=100.0,
+    delays_ms=(5.9, 1.3),
 )
 SLOW_SAVE = """
 import os, sys, pathlib
@@ -220,3 +221,29 @@ def test_a_bad_file_in_the_folder_is_listed_with_its_reason(tmp_path: Path) -> N
     with pytest.raises(ProfileError):
         store.import_file(tmp_path / "a-broken.json")
     assert store.find(FULL.board) is not None
+
+
+def test_a_file_of_version_1_has_less_and_is_read(tmp_path: Path) -> None:
+    values = json.loads(to_text(FULL)) | {MARK: 1}
+    for name in ("matrix_sigma", "matrix_date", "matrix_temp_c"):
+        del values["gyroscope"][name]
+    del values["delays_ms"]
+    old = from_text(json.dumps(values))
+    assert old.gyroscope == FULL.gyroscope
+    assert old.delays_ms is None
+    with pytest.raises(ProfileError, match="gyroscope: matrix_sigma is missing"):
+        from_text(json.dumps(values | {MARK: VERSION}))
+
+
+@pytest.mark.parametrize(
+    "value", [5.9, [5.9], [5.9, 1.3, 0.0], [-1.0, 0.0], [60.0, 0.0], [0.0, 201.0], ["5", 1], [True, 0]]
+)
+def test_delays_that_are_none_are_refused(value: object) -> None:
+    with pytest.raises(ProfileError, match="delays_ms"):
+        from_text(changed("delays_ms", value))
+
+
+@pytest.mark.parametrize("value", ["yesterday", "0001-01-01"])
+def test_a_matrix_without_a_date_of_its_own_is_refused(value: str) -> None:
+    with pytest.raises(ProfileError, match="matrix_date"):
+        from_text(changed("gyroscope.matrix_date", value))
