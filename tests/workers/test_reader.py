@@ -108,7 +108,7 @@ def test_a_yanked_port_is_said_once_and_comes_back_by_itself(feed: Feed, session
     assert [tone for tone, _ in said] == ["error", "info"]
     steps = np.diff(session.samples.last(session.samples.count)["t"])
     assert 1 <= status.gaps <= np.count_nonzero(steps > 2.5 / 138.6)
-    assert max(steps.max(), 1.0) < status.gap_s + 1.0 / 138.6
+    assert max(steps.max(), 1.0) < status.gap_s + 2.0 / 138.6  # the rate is fitted, not quite that
     assert "are missing" in status.sentence
     qtbot.waitUntil(lambda: session.attitude.count >= before + 20)
     assert np.diff(session.samples.last(500)["t"]).min() > 0.0
