@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, hypot, nan, radians, tan
+from math import hypot, nan, radians
 from typing import Any, ClassVar
 
 import numpy as np
 
 from imugui.fusion.attitude import from_acc_mag
 from imugui.fusion.detectors import RestDetector
-from imugui.fusion.light import in_earth, tilt_error
-from imugui.fusion.quaternion import Floats, from_rotation_vector, multiply, normalise
+from imugui.fusion.quaternion import Floats, normalise
 from imugui.fusion.scalar import (
     FREE_FALL,
-    HELD,
     LARGEST,
     NO_FIELD,
     NOTHING,
@@ -28,21 +26,15 @@ from imugui.fusion.scalar import (
     turned_in_sensor,
 )
 from imugui.fusion.self_calibrating import Estimator
-from imugui.fusion.self_calibrating_block import Block, Sums
+from imugui.fusion.self_calibrating_block import Block
 from imugui.fusion.self_calibrating_guard import Guard
 from imugui.fusion.self_calibrating_params import ImuguiParams
+from imugui.fusion.self_calibrating_start import SETTLED, Start, as_quat
 from imugui.samples import GRAVITY
 
 BLOCK_S = 0.048  # s; a block ends with the sample nearest to it: after 40 to 50 ms at all usual rates
-UPRIGHT_S = 0.1  # s of forces, over which the first vertical is averaged
-SETTLED = 10  # fields, over which the first heading is averaged
 FIRST_TILT, FIRST_HEADING = radians(2.0), radians(6.0)  # sigmas of the first attitude
 GIVEN = radians(5.0), radians(8.0)  # sigmas of tilt and heading of an attitude that came from elsewhere
-
-ASKEW = tan(radians(20.0))  # a quiet board that feels gravity so far from the vertical is not where it seems
-ASKEW_AFTER = 0.5  # s
-QUIET_RATE = 0.1  # rad/s
-QUIET_FORCE = 0.5  # m/s2, so little that no horizontal acceleration could look like ASKEW
 
 NO_TURN: Quat = (1.0, 0.0, 0.0, 0.0)
 
@@ -75,10 +67,7 @@ class Imugui:
         self._offset: tuple[float, ...] = NOTHING  # b and 1 + M of the rate (1 + M) w - b
         self._gain: tuple[float, ...] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
         self._started = False
-        self._upright = 0.0  # s of forces that have set the vertical
-        self._fields = 0  # that have set the heading; SETTLED when it is known
-        self._field_age = 0.0  # s since the last field
-        self._askew = 0.0  # s for which gravity has contradicted the attitude
+        self._start = Start()
         self._estimator = Estimator(self.params)
         self._estimator.forget(FIRST_TILT, 0.0)
         self._block = Block(self._estimator.delay)
@@ -93,14 +82,14 @@ class Imugui:
             up = direction(acc, FREE_FALL)
             if up is None:
                 return
-            self._attitude = _quat(from_acc_mag(up))
+            self._attitude = as_quat(from_acc_mag(up))
             self._started, dt = True, 0.0
         rate = self._turn(gyr, acc, dt)
-        if self._upright < UPRIGHT_S:
-            self._level(acc, dt)
+        if self._start.levelling:
+            self._attitude = self._start.level(self._attitude, acc, dt)
         if mag is not None and not NO_FIELD < hypot(*mag) < LARGEST:
             mag = None
-        self._field_age += dt
+        self._start.field_age += dt
         if mag is not None:
             self._take_field(mag, dt)
         if self._block.time > 0.0 and self._block.time + 0.5 * dt >= BLOCK_S:
@@ -121,41 +110,28 @@ class Imugui:
         self._block.add(gyr, acc, quat, dt)
         return x, y, z
 
-    def _level(self, acc: Sequence[float], dt: float) -> None:
-        """The first tenth of a second sets the vertical: the mean of its forces, each as long as its sample."""
-        self._upright += dt
-        up = direction(acc, FREE_FALL)
-        if up is not None and dt > 0.0:
-            x, y, z = tilt_error(in_earth(up, rotation_rows(self._attitude)))
-            share = dt / (self._upright + dt)
-            self._attitude = turned_in_earth(self._attitude, share * x, share * y, share * z)
-
     def _take_field(self, mag: Sequence[float], dt: float) -> None:
-        """The first fields set the heading: the first alone, then the mean of all, up to ten; later ones are kept.
-
-        A board that holds its field may have taken the first a while ago, turned otherwise: when the second comes
-        later than the next sample, it sets the heading alone, too.
-        """
-        held, self._field_age = self._field_age > HELD * dt, 0.0
-        if self._fields >= SETTLED:
+        """The first fields set the heading, later ones are kept for the block's end."""
+        start = self._start
+        if start.fields < SETTLED:
+            if start.fields == 0:
+                self._estimator.doubt_heading(FIRST_HEADING)
+            self._attitude = start.turn_north(self._attitude, mag, dt)
+            self._block.clear()
+        else:
             self._block.add_field(mag)
-            return
-        east, north, _ = in_earth((mag[0], mag[1], mag[2]), rotation_rows(self._attitude))
-        error = atan2(east, north)
-        turn = error if self._fields == 0 or (self._fields == 1 and held) else error / (self._fields + 1)
-        if self._fields == 0:
-            self._estimator.doubt_heading(FIRST_HEADING)
-        self._fields += 1
-        # the tangent makes the short form of turned_in_earth exact
-        self._attitude = turned_in_earth(self._attitude, 0.0, 0.0, 2.0 * tan(0.5 * turn))
-        self._block.clear()
+        start.field_age = 0.0
 
     def _end_block(self) -> None:
         """Learn from the block, correct the attitude, and see whether all is well."""
         sums = self._block.sums(self._full_scale)
-        if self._contradicted(sums):
+        estimator, risen = self._estimator, self._start.turn_up(self._attitude, sums)
+        if risen is not None:
+            self._block.clear()
+            if risen is not self._attitude:
+                self._attitude = risen
+                estimator.restart(*GIVEN)
             return
-        estimator = self._estimator
         x, y, z = estimator.step(sums, self.rest)
         self._attitude = turned_in_earth(self._attitude, x, y, z)
         self._offset, self._gain = estimator.correction()
@@ -168,28 +144,6 @@ class Imugui:
             self._fall_back(trouble)
         else:
             self._guard.passed(sums.time)
-
-    def _contradicted(self, sums: Sums) -> bool:
-        """Is a quiet board's gravity far from the vertical? Half a second later it is turned up.
-
-        Until then nothing is learnt: the error is beyond what a linear filter can follow: a wrong start, or a shock.
-        """
-        x, y, z = sums.force.tolist()
-        if hypot(x, y) <= ASKEW * z:
-            self._askew = 0.0
-            return False
-        force = hypot(x, y, z) / sums.time
-        if sums.turning > QUIET_RATE**2 * sums.time or abs(force - GRAVITY) > QUIET_FORCE:
-            return False
-        self._askew += sums.time
-        self._block.clear()
-        if self._askew >= ASKEW_AFTER:
-            ex, ey, _ = tilt_error(direction((x, y, z), 0.0) or (0.0, 0.0, 1.0))
-            angle = atan2(hypot(x, y), z) / hypot(ex, ey)
-            self._attitude = _quat(multiply(from_rotation_vector((angle * ex, angle * ey, 0.0)), self._attitude))
-            self._estimator.restart(*GIVEN)
-            self._askew = 0.0
-        return True
 
     def _fall_back(self, reason: str) -> None:
         """Let VQF take over, and begin again from its attitude."""
@@ -252,22 +206,33 @@ class Imugui:
 
     def start(self, quat: Sequence[float], heading_known: bool = True) -> None:
         """Begin again at an attitude: see ``Filter.start``."""
-        self._attitude = self.quat = _quat(normalise(quat))
+        self._attitude = self.quat = as_quat(normalise(quat))
         self.rest = False
-        self._started, self._fields = True, SETTLED if heading_known else 0
-        self._field_age = self._askew = 0.0
-        self._upright = UPRIGHT_S
+        self._started = True
+        self._start.given(heading_known)
         self._rest_detector = RestDetector()
         self._estimator.restart(*GIVEN)
         self._block.clear()
         if self._guard.fallback is not None:
             self._guard.fallback.start(quat, heading_known)
 
+    def refer_heading(self, off: bool = False) -> None:
+        """Call the present heading right by definition: ``sigma_heading`` counts from here.
+
+        ``off``: the magnetometer was switched off; otherwise it counts as gone ten seconds after its last field.
+        Only without a magnetometer; with one, and while another filter has taken over, it does nothing. It takes the
+        heading's error and its correlations out of P. That is no pretence: without a field nothing measures the
+        heading, and north is a convention. Calling the present heading exact moves the convention by the error it
+        had. Seen from there the heading has none, and all else (tilt, bias, matrix) is as well known as before.
+        """
+        if self._guard.fallback is None and (off or self._start.blind):
+            self._estimator.doubt_heading(0.0)
+
     def state(self) -> dict[str, Any]:
         """Everything that the next update depends on."""
-        kept = ("rest", "disturbed", "_started", "_upright", "_fields", "_field_age", "_askew")
+        kept = ("rest", "disturbed", "_started")
         lists = ("quat", "bias", "_attitude", "_offset", "_gain")
-        parts = ("_estimator", "_block", "_rest_detector", "_guard")
+        parts = ("_start", "_estimator", "_block", "_rest_detector", "_guard")
         return {
             **{name: getattr(self, name) for name in kept},
             **{name: list(getattr(self, name)) for name in lists},
@@ -281,8 +246,3 @@ class Imugui:
                 getattr(self, name).restore(value)
             else:
                 setattr(self, name, tuple(value) if isinstance(value, list) else value)
-
-
-def _quat(array: Floats) -> Quat:
-    w, x, y, z = array.tolist()
-    return w, x, y, z

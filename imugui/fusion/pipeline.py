@@ -79,6 +79,15 @@ class Pipeline:
             w, x, y, z = normalise(quat).tolist()
             self.origin = (w, x, y, z)
 
+    def refer_heading(self) -> None:
+        """Call the heading right by definition from now on, where the filter runs without field and can count from it.
+
+        See ``Imugui.refer_heading``; the other filters state no uncertainty that could begin anew.
+        """
+        refer = getattr(self.filter, "refer_heading", None)
+        if refer is not None:
+            refer(not self.use_mag)
+
     def continue_from(self, other: Pipeline) -> None:
         """Go on where ``other`` is: its attitude, its origin, its place in the stream and its counts.
 

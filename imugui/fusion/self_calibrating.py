@@ -25,9 +25,11 @@ OLDEST_FIELD = 1.0  # s, for which a field may stand at most
 BELIEVABLE = 16.0  # squared innovation over its variance, beyond which a quiet board rather moves evenly
 RESTING = 6.0  # factor on the noise of the heading at rest: there the local error of the field does not average out
 WIDEN_EVERY = 0.25  # s
-WIDEN_BEYOND = 1.8  # sigmas of the first uncertainty: an element of the matrix beyond them contradicts it
-WIDER = 4.0
+CONTRADICTED = 1.0  # sigmas by which the squares of the matrix may exceed what its first uncertainty lets expect
+WIDER = 6.0
 WIDEST = 0.03
+NEAR, SLOW = 0.4, 3.0  # m and m/s, beyond which "the position is 0", or a vehicle's velocity, says less
+FAR_MEMORY = 2.0  # s, over which the departure is averaged
 
 
 class Estimator:
@@ -36,7 +38,7 @@ class Estimator:
     def __init__(self, params: ImuguiParams) -> None:
         self._params, self._derived = params, steps.derived(params)
         self.watch = FieldWatch()
-        self.position_nis = 0.0  # squared innovation of the position over its variance, largest of the axes
+        self.position_nis = 0.0  # squared innovation of the position over its variance, mean of the axes
         self.heading_nis: float | None = None  # the same of the heading, None when it was not used
         self._rest_rates = RestRates()
         self.forget(0.0, 0.0)
@@ -45,8 +47,10 @@ class Estimator:
         """Begin with the first uncertainties and these of the attitude, rad."""
         self.nominal: Floats = np.zeros(SIZE)
         self.p = steps.first_covariance(self._params, tilt, heading)
+        self._turned: Floats = np.zeros(9)  # rad: how far the heading has turned for each element of the matrix
         self.matrix_sigma = self._params.matrix_sigma  # of the first uncertainty, widened when it was too narrow
         self._since_widened = self._field_age = 0.0
+        self._far = 0.0  # squared departure of the position, m2, or of a vehicle's velocity, averaged
         self._weigh()
 
     def restart(self, tilt: float, heading: float) -> None:
@@ -54,13 +58,13 @@ class Estimator:
         p = steps.first_covariance(self._params, tilt, heading)
         p[LEARNT, LEARNT] = self.p[LEARNT, LEARNT]
         self.p = p
-        self.nominal[: LEARNT.start] = 0.0
+        self.nominal[: LEARNT.start] = self._far = 0.0
         self._rest_rates.clear()
         self._weigh()
 
     def doubt_heading(self, sigma: float) -> None:
         """The heading was set anew, with this uncertainty in rad."""
-        self.p[2, :] = self.p[:, 2] = 0.0
+        self.p[2, :] = self.p[:, 2] = self._turned[:] = 0.0
         self.p[2, 2] = sigma**2
         self._weigh()
 
@@ -77,6 +81,7 @@ class Estimator:
         self._hold_still(update, sums, rest)
         self._stay_near(update, sums)
         self._follow_north(update, sums, rest)
+        self._turned = self._turned + sums.by_matrix[2] if self.heading_nis is None else np.zeros(9)
         self._widen(update, sums.time)
         return self._feed_back(update)
 
@@ -97,12 +102,19 @@ class Estimator:
             update.observe_three(3, (-x, -y, -z), velocity)
 
     def _stay_near(self, update: Update, sums: Sums) -> None:
-        """Position = 0 on each axis; in a vehicle velocity = 0, much more loosely."""
+        """Position = 0 on each axis; in a vehicle velocity = 0, much more loosely.
+
+        A board that travels about the middle is off it for a second at a time, not anew in each block. A departure
+        of r that lasts has a density that grows as r^2, so the noise's is taken (1 + r^2 / NEAR^2) times as large.
+        """
         d = self._derived
-        first, density = (6, d.position) if self._params.bounded else (3, d.velocity)
+        first, density, near = (6, d.position, NEAR) if self._params.bounded else (3, d.velocity, SLOW)
         x, y, z = self.nominal[first : first + 3].tolist()
-        nis = update.observe_three(first, (-x, -y, -z), density / sums.time)
-        self.position_nis = max(nis)
+        square = x * x + y * y + z * z
+        self._far += sums.time / (FAR_MEMORY + sums.time) * (square - self._far)
+        known = float(update.p.diagonal()[first : first + 3].sum()) / 3.0
+        self.position_nis = square / 3.0 / (known + density / sums.time)
+        update.observe_three(first, (-x, -y, -z), density * (1.0 + self._far / near**2) / sums.time)
 
     def _follow_north(self, update: Update, sums: Sums, rest: bool) -> None:
         """The heading of the mean field, as far as the field may be believed."""
@@ -121,15 +133,19 @@ class Estimator:
     def _widen(self, update: Update, time: float) -> None:
         """Where the matrix contradicts its first uncertainty, replace that by a wider one.
 
-        The first uncertainty is a measurement "each element is 0, give or take sigma". It is taken back, and the
-        wider one put in its place, by the variance r with 1/r = 1/sigma^2 - 1/wider^2.
+        Were that right, the squares of the elements would sum up to what has been learnt, sum(sigma^2 - P_ii), or
+        to n sigma^2, like n squares of a normal number: give or take sqrt(2 n) sigma^2. The first uncertainty is a
+        measurement "each element is 0, give or take sigma", which is taken back, and the wider one put in its
+        place, by the variance r with 1/r = 1/sigma^2 - 1/wider^2.
         """
         self._since_widened += time
         sigma = self.matrix_sigma
         if self._since_widened < WIDEN_EVERY or not 0.0 < sigma < WIDEST:
             return
         self._since_widened = 0.0
-        if np.abs(self.nominal[MATRIX]).max() < WIDEN_BEYOND * sigma:
+        found = self.nominal[MATRIX] / sigma
+        learnt = float(np.maximum(1.0 - update.p.diagonal()[MATRIX] / sigma**2, 0.0).sum())
+        if float((found * found).sum()) <= learnt + CONTRADICTED * sqrt(2.0 * learnt):
             return
         self.matrix_sigma = wider = min(WIDER * sigma, WIDEST)
         variance = 1.0 / (sigma**-2 - wider**-2)
@@ -149,9 +165,25 @@ class Estimator:
         return x, y, z
 
     def _weigh(self) -> None:
-        """1 sigma of tilt (both horizontal axes together) and of heading, rad, from P."""
+        """1 sigma of tilt (both horizontal axes together) and of heading, rad, from P and what it may not know."""
         xx, yy, zz = self.p.diagonal()[:3].tolist()
-        self.sigmas = (sqrt(max(xx + yy, 0.0)), sqrt(max(zz, 0.0)))
+        self.sigmas = (sqrt(max(xx + yy, 0.0)), sqrt(max(zz, 0.0) + self._unlearnt()))
+
+    def _unlearnt(self) -> float:
+        """Variance of the heading, rad2, that P lacks without a field where the gyroscope is not calibrated.
+
+        T_i is how far the heading has turned for each element of the matrix since a field, or ``doubt_heading``, set
+        it: sum up * (w dt)'. Were the first sigma of the elements not s but u, the variance of each would be
+        1 / (1 / P_ii - 1 / s^2 + 1 / u^2): u^2 where nothing has been learnt, hardly more than P_ii where much has.
+        """
+        first, worst = self.matrix_sigma, self._params.matrix_worst
+        if worst <= first or not self._turned.any():
+            return 0.0
+        if first == 0.0:
+            return worst**2 * float((self._turned**2).sum())
+        known = np.minimum(self.p.diagonal()[MATRIX], first**2)
+        loose = 1.0 / (1.0 / known - first**-2 + worst**-2)
+        return float((self._turned**2 * (loose - known)).sum())
 
     def correction(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """The bias (3) and the matrix 1 + M (9, row by row) as plain floats: rate = (1 + M) w - b."""
@@ -163,6 +195,8 @@ class Estimator:
         return {
             "nominal": self.nominal.tolist(),
             "p": self.p.tolist(),
+            "turned": self._turned.tolist(),
+            "far": self._far,
             "matrix_sigma": self.matrix_sigma,
             "since_widened": self._since_widened,
             "field_age": self._field_age,
@@ -173,6 +207,8 @@ class Estimator:
     def restore(self, state: dict[str, Any]) -> None:
         """Continue from ``state``."""
         self.nominal, self.p = np.array(state["nominal"]), np.array(state["p"])
+        self._turned = np.array(state.get("turned", [0.0] * 9))  # older recordings have neither of the two
+        self._far = state.get("far", 0.0)
         self.matrix_sigma, self._since_widened = state["matrix_sigma"], state["since_widened"]
         self._field_age = state["field_age"]
         self._rest_rates.restore(state["rest_rates"])

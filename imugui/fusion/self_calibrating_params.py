@@ -1,8 +1,8 @@
-"""The parameters of imugui's own filter, with units, and what is known of the delays of some hardware."""
+"""The parameters of imugui's own filter, with units."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from imugui.fields import field as editable
 
@@ -70,6 +70,11 @@ class ImuguiParams:
         0.004, "Scale and misalignment: first uncertainty", low=0.0, high=0.2, step=0.001,
         tip="One standard deviation of each element; 0 learns none.",
     )  # fmt: skip
+    matrix_worst: float = editable(
+        0.02, "Scale and misalignment: at worst", low=0.0, high=0.2, step=0.001,
+        tip="As one standard deviation. Without a magnetometer the uncertainty of the heading allows for it, "
+        "until the elements have been learnt. Lower it for a calibrated gyroscope.",
+    )  # fmt: skip
     acc_noise: float = editable(
         0.02, "Accelerometer: noise", unit="m/s2/√Hz", low=0.0001, high=10.0, step=0.01, tip="White noise of the force."
     )
@@ -77,16 +82,3 @@ class ImuguiParams:
         0.05, "Accelerometer: uncertainty of the bias", unit="m/s2", low=0.0001, high=2.0, step=0.01,
         tip="One standard deviation.",
     )  # fmt: skip
-
-
-LATENCIES_MS: dict[str, tuple[float, float]] = {
-    "": (0.0, 0.0),
-    "myon aktos-t": (2.4, 14.0),  # measured on BROAD with an optical reference
-}
-"""Delays of gyroscope and magnetometer in ms by hardware; the first entry is hardware of which nothing is known."""
-
-
-def for_hardware(name: str, params: ImuguiParams | None = None) -> ImuguiParams:
-    """``params`` with the delays of a known hardware; KeyError when it is not in LATENCIES_MS."""
-    gyr, mag = LATENCIES_MS[name]
-    return replace(params if params is not None else ImuguiParams(), gyr_latency_ms=gyr, mag_latency_ms=mag)

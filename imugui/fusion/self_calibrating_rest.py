@@ -15,7 +15,7 @@ WAIT = 12  # blocks, half a second, for which a rate at rest waits before it is 
 SPREAD = 3.0  # the rates at rest scatter slowly: their standard deviation counts threefold
 SLOW = radians(2.0)  # rad/s, largest bias that may be mistaken for a turn
 STEADY = radians(0.2)  # rad/s, scatter of the mean rates below which a board lies on something firm
-RATE = radians(0.1)  # rad/s, noise of a block's mean rate at rest
+RATE = radians(0.05)  # rad/s, noise of a block's mean rate at rest
 STANDING = 0.02  # m/s, noise of a block's velocity at rest
 
 STILL = 0.03  # m/s, velocity of a hand that holds still

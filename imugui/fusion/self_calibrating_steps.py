@@ -25,7 +25,7 @@ THETA, VELOCITY, POSITION = slice(0, 3), slice(3, 6), slice(6, 9)
 BIAS, MATRIX, FORCE, DELAY = slice(9, 12), slice(12, 21), slice(21, 24), 24
 LEARNT = slice(9, 25)
 
-FIRST_VELOCITY, FIRST_POSITION = 0.1, 0.1  # m/s and m, sigmas at the start
+FIRST_VELOCITY, FIRST_POSITION = 0.1, 1.0  # m/s and m, sigmas at the start, which need not be in the middle
 CLIPPED_TURN = 0.2**2  # rad2/s, noise of the attitude while a sensor is at the end of its range
 CLIPPED_FORCE = 5.0**2  # m2/s3, the same for the velocity
 
@@ -87,12 +87,16 @@ IDENTITY = np.eye(SIZE)
 
 
 def transition(sums: Sums, force: Floats) -> Floats:
-    """Phi (25, 25): the identity, and theta <- G (bias, matrix); v <- theta x F; v <- -sum(R dt) on ba; p <- T v."""
+    """Phi (25, 25): the identity, and theta <- G (bias, matrix); v <- theta x F; v <- -sum(R dt) on ba; p <- T v.
+
+    Without the share of theta_z in theta x F: an error of the heading turns force, velocity and position together,
+    and a place near 0 stays near 0. So the position says nothing of the heading.
+    """
     phi = IDENTITY.copy()
     phi[THETA, BIAS] = -sums.rotation
     phi[THETA, MATRIX] = sums.by_matrix
     x, y, z = force.tolist()
-    phi[VELOCITY, THETA] = ((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))
+    phi[VELOCITY, THETA] = ((0.0, z, 0.0), (-z, 0.0, 0.0), (y, -x, 0.0))
     phi[VELOCITY, FORCE] = -sums.rotation
     phi[6, 3] = phi[7, 4] = phi[8, 5] = sums.time
     return phi

@@ -16,7 +16,7 @@ from imugui.fusion.imugui_filter import Imugui
 from imugui.fusion.pipeline import Pipeline
 from imugui.fusion.self_calibrating_block import FROM_QUATS, Block
 from imugui.fusion.self_calibrating_field import FieldWatch
-from imugui.fusion.self_calibrating_params import LATENCIES_MS, ImuguiParams, for_hardware
+from imugui.fusion.self_calibrating_params import ImuguiParams
 from imugui.fusion.self_calibrating_rest import RestRates
 from imugui.fusion.self_calibrating_steps import HEADING_STATES, SIZE, Update
 from imugui.samples import GRAVITY, SAMPLE, Rows, empty_rows
@@ -24,6 +24,7 @@ from imugui.simulation.board import VirtualBoard
 from imugui.simulation.errors import PRESETS
 
 IdealRows = Callable[..., tuple[Rows, qt.Floats]]
+BROAD = ImuguiParams(gyr_latency_ms=2.4, mag_latency_ms=14.0)  # the delays of that hardware
 OFF = dataclasses.replace(PRESETS["mpu9250-calibrated"], gyr_scale_percent=3.0, gyr_cross_percent=1.75)
 
 
@@ -87,20 +88,58 @@ def test_the_gyroscopes_delay_predicts_the_attitude_ahead(ideal_rows: IdealRows)
     assert rms_deg(ahead[20:-1], truth[20:-1]) > 0.15
 
 
-def test_hardware_of_which_nothing_is_known_has_no_delays() -> None:
-    assert for_hardware("") == ImuguiParams()
-    known = for_hardware("myon aktos-t", ImuguiParams(matrix_sigma=0.01))
-    assert (known.gyr_latency_ms, known.mag_latency_ms) == LATENCIES_MS["myon aktos-t"] == (2.4, 14.0)
-    assert known.matrix_sigma == 0.01
-
-
 def test_the_sigma_of_the_heading_grows_without_a_magnetometer_and_not_with_one() -> None:
     _, rows, truth = turned(30.0)
     blind, seeing = (Pipeline("imugui", use_mag=use_mag).step(rows) for use_mag in (False, True))
-    assert blind["sigma_heading"][-1] > 2.0 * blind["sigma_heading"][1000] > 0.0
+    assert blind["sigma_heading"][500] > 10.0 * blind["sigma_heading"][100] > 0.0
     assert seeing["sigma_heading"][-1] < seeing["sigma_heading"][100]
     within = inclination(blind["quat"], truth) < 2.0 * blind["sigma_tilt"]
     assert 0.5 < within.mean() <= 1.0
+    w, _, _, z = qt.multiply(blind["quat"], qt.conjugate(truth)).T
+    off = 2.0 * np.arctan(z / w)
+    assert (np.abs(off - off[0]) < 2.0 * blind["sigma_heading"])[1:].mean() > 0.93
+
+
+def about_the_vertical(rows: Rows, angle: qt.Floats) -> Rows:
+    """A level board that turns to these angles (n,), rad, with a gyroscope that makes no error."""
+    rows["gyr"], rows["acc"], rows["mag"] = 0.0, (0.0, 0.0, GRAVITY), np.nan
+    rows["gyr"][1:, 2] = np.diff(angle) / np.diff(rows["t"])
+    return rows
+
+
+def test_turning_on_costs_heading_and_turning_back_returns_most_of_it(ideal_rows: IdealRows) -> None:
+    t = np.arange(3000) / 100.0
+    angle = 2.0 * np.pi * np.clip(t - 5.0, 0.0, 10.0) / 10.0
+    there = Pipeline("imugui").step(about_the_vertical(ideal_rows(t)[0], angle))
+    back = Pipeline("imugui").step(about_the_vertical(ideal_rows(t)[0], np.minimum(angle, angle[::-1])))
+    assert there["sigma_heading"][-1] == pytest.approx(2.0 * np.pi * ImuguiParams().matrix_worst, rel=0.2)
+    assert back["sigma_heading"][1500] > 3.0 * back["sigma_heading"][-1] > 0.0
+
+
+def test_a_heading_that_is_referred_to_is_exact_and_nothing_else_is_moved() -> None:
+    _, rows, _ = turned(12.0)
+    own, other = Pipeline("imugui", use_mag=False), Pipeline("imugui", use_mag=False)
+    for one in (own, other):
+        one.step(rows[:800])
+    own.refer_heading()
+    now, then = own.filter, other.filter
+    assert now.sigma_heading == 0.0 < then.sigma_heading  # type: ignore[attr-defined]
+    assert now.sigma_tilt == then.sigma_tilt  # type: ignore[attr-defined]
+    assert (now.quat, now.bias) == (then.quat, then.bias)
+    again = Pipeline.from_state(json.loads(json.dumps(own.state())))
+    ahead = own.step(rows[800:])
+    assert (ahead["sigma_heading"] == again.step(rows[800:])["sigma_heading"]).all()
+    assert 0.0 < ahead["sigma_heading"][50] < other.step(rows[800:])["sigma_heading"][50]
+
+
+def test_with_a_magnetometer_and_in_other_filters_no_heading_is_referred_to() -> None:
+    _, rows, _ = turned(4.0)
+    own, madgwick = Pipeline("imugui"), Pipeline("madgwick")
+    for one in (own, madgwick):
+        one.step(rows)
+        before = one.filter.state()
+        one.refer_heading()
+        assert one.filter.state() == before
 
 
 @pytest.mark.parametrize("told", [True, False])
@@ -271,7 +310,7 @@ def test_a_trial_of_broad(data_dir: Path) -> None:
         rows[key] = trial[key]
     counted = trial["movement"] & np.isfinite(trial["opt_quat"]).all(axis=1)
     truth = trial["opt_quat"][counted].astype(float)
-    own = Pipeline("imugui", for_hardware("myon aktos-t"))
+    own = Pipeline("imugui", BROAD)
     out = own.step(rows)
     assert rms_deg(out["quat"][counted], truth) < 1.8
     tilt = inclination(out["quat"][counted], truth)
