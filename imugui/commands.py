@@ -11,12 +11,14 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from imugui import __version__
 from imugui.calibration.profile_file import ProfileError, load
 from imugui.cli import OK, REFUSED, fail, write_report
+from imugui.fields import from_words
 from imugui.formats import FORMATS, Options
 from imugui.formats.ble_profiles import BLE_PROFILES
 from imugui.formats.column_map import NOT_USED
@@ -130,13 +132,26 @@ def _simulate_ble(arguments: argparse.Namespace) -> int:
 def _add_fusion(one: argparse.ArgumentParser) -> None:
     one.add_argument("--format", default="auto", choices=["auto", *FORMATS])
     one.add_argument("--filter", choices=list(FILTERS), help=f"default {DEFAULT_FILTER}, or the recorded one")
+    text = "one of the filter's parameters, such as gyr_latency_ms=2.4; any number of times"
+    one.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", dest="chosen", help=text)
     one.add_argument("--no-mag", action="store_true", help="do not use the magnetometer")
+    text = "leave force and field out while the board's button moves"
+    one.add_argument("--spike-mask", action="store_true", help=text)
     text = "a table's columns with units, such as t_ms,ax_g,ay_g,az_g,,gx_dps,gy_dps,gz_dps; an empty name skips one"
     one.add_argument("--columns", type=_columns, default=Options(), metavar="NAMES", help=text)
 
 
 def _columns(text: str) -> Options:
     return Options(columns=tuple(name.strip() or NOT_USED for name in text.split(",")))
+
+
+def _filter_params(arguments: argparse.Namespace) -> Any:
+    """The chosen filter's parameters; ValueError in words when what was set is none of them."""
+    name = arguments.filter or DEFAULT_FILTER
+    try:
+        return from_words(FILTERS[name].Params, arguments.chosen)
+    except ValueError as error:
+        raise ValueError(f"--set for the filter {name}: {error}") from None
 
 
 def _add_replay(one: argparse.ArgumentParser) -> None:
@@ -149,21 +164,25 @@ def _add_replay(one: argparse.ArgumentParser) -> None:
 
 def _replay(arguments: argparse.Namespace) -> int:
     try:
+        params = _filter_params(arguments)
+    except ValueError as error:
+        return fail(str(error))
+    try:
         name = arguments.filter or DEFAULT_FILTER
         path = samples_file(arguments.file)
         capture = read_samples(path, arguments.format, arguments.columns, arguments.rate or 0.0)
         if missing := missing_sensors(capture.rows):
             return fail(f"{path}: no attitude without {missing}. Found: {capture.decoder.seen}")
         correction = _correction(arguments.profile, capture.rows) if arguments.profile else None
-        pipeline = Pipeline(name, correction=correction, use_mag=not arguments.no_mag)
+        pipeline = Pipeline(name, params, correction, not arguments.no_mag, spike_mask=arguments.spike_mask)
         metadata = {"imugui": __version__, "source": arguments.file.name, "format": capture.format}
         metadata |= {"filter": name, "frame": "ENU, sensor to earth", "found": capture.decoder.seen}
         metadata |= {"profile": arguments.profile.name} if arguments.profile else {}
         write_attitude(arguments.out, pipeline.steps(capture.rows), metadata)
-    except (UnreadableError, ProfileError) as error:
-        return fail(str(error))
     except OSError as error:
         return fail(f"{error.filename or arguments.file}: {error.strerror or error}")
+    except (UnreadableError, ProfileError) as error:
+        return fail(str(error))
     counts = capture.decoder.counts
     print(f"{counts.samples} samples, {counts.bad_messages} bad messages, {capture.format}: {capture.decoder.seen}")
     print(f"{name}: {pipeline.mag_updates} magnetometer measurements, {pipeline.restarts} restarts")
@@ -257,13 +276,16 @@ def _live(arguments: argparse.Namespace) -> int:
     places = {"serial": arguments.port, "ble": arguments.ble, "replay": arguments.recording}
     places["simulator"] = arguments.simulate
     kind, address = next((kind, str(place)) for kind, place in places.items() if place)
-    follow = arguments.filter is None
+    follow = arguments.filter is None and not arguments.chosen
+    try:
+        params = _filter_params(arguments)
+    except ValueError as error:
+        return fail(str(error))
     source = Source(
         kind, address, arguments.format, arguments.baud, arguments.columns, rate_hz=arguments.rate, follow=follow
     )
-    result = run_session(
-        source, arguments.filter or DEFAULT_FILTER, not arguments.no_mag, arguments.seconds, arguments.record
-    )
+    fusion = {"filter_name": arguments.filter or DEFAULT_FILTER, "params": params, "use_mag": not arguments.no_mag}
+    result = run_session(source, fusion, arguments.spike_mask, arguments.seconds, arguments.record)
     if arguments.report:
         try:
             write_report(arguments.report, result.report)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 
@@ -42,6 +42,27 @@ def problem(item: dataclasses.Field[Any], value: Any) -> str | None:
     if (low is not None and value < low) or (high is not None and value > high):
         return f"{item.name}: {value} is outside {low} to {high}"
     return None
+
+
+def from_words(cls: type[Any], words: Sequence[str]) -> Any:
+    """An instance of dataclass ``cls`` with what "name=value" words say; ValueError in words when one says nothing."""
+    kinds: dict[str, Any] = {item.name: type(item.default) for item in dataclasses.fields(cls)}
+    values: dict[str, Any] = {}
+    for name, _, text in (word.partition("=") for word in words):
+        if name not in kinds:
+            raise ValueError(f"there is no {name!r}; there are {', '.join(kinds) or 'none'}")
+        try:
+            values[name] = SWITCHES[text.lower()] if kinds[name] is bool else kinds[name](text)
+        except (KeyError, ValueError):
+            raise ValueError(f"{name}: {text!r} is not {NEEDED[kinds[name]]}") from None
+    found, problems = from_mapping(cls, values)
+    if problems:
+        raise ValueError("; ".join(problems))
+    return found
+
+
+NEEDED = {float: "a number", int: "a whole number", bool: "on or off"}
+SWITCHES = {"on": True, "true": True, "1": True, "off": False, "false": False, "0": False}
 
 
 def _as_float(value: int) -> float:

@@ -63,6 +63,12 @@ def test_replay_writes_the_attitude(walk: Path, tmp_path: Path) -> None:
         (("live", "--recording", "/nowhere/x.csv", "--seconds", "5"), "cannot be read"),
         (("live", "--port", "/dev/there-is-none", "--seconds", "1"), "no port"),
         (("live", "--seconds", "1"), "required"),
+        (
+            ("live", "--simulate", "rest", "--filter", "imugui", "--set", "delay=1"),
+            "there is no 'delay'",
+        ),
+        (("live", "--simulate", "rest", "--filter", "mahony", "--set", "kp=-1"), "kp: -1.0 is outside"),
+        (("replay", __file__, "--out", "never.csv", "--set", "tau_acc=slow"), "'slow' is not a number"),
         (("nonsense",), "invalid choice"),
     ],
 )
@@ -71,6 +77,14 @@ def test_bad_use_exits_with_2_and_one_cause(arguments: tuple[str, ...], words: s
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_parameters_of_the_filter_can_be_set(walk: Path, tmp_path: Path) -> None:
+    plain, late = tmp_path / "plain.csv", tmp_path / "late.csv"
+    assert run("replay", walk, "--filter", "imugui", "--set", "bounded=on", "--out", plain).returncode == 0
+    assert run("replay", walk, "--filter", "imugui", "--set", "gyr_latency_ms=20", "--out", late).returncode == 0
+    yaws = [np.loadtxt(path, delimiter=",", comments=("#", "t"))[:, 7] for path in (plain, late)]
+    assert np.abs(yaws[1] - yaws[0]).max() > 0.3  # 20 ms ahead, in the turn
 
 
 def test_an_unwritable_result_is_said(walk: Path) -> None:

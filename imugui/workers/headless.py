@@ -28,11 +28,15 @@ class Result:
 
 
 def run_session(
-    source: Source, filter_name: str, use_mag: bool, seconds: float, recording: Path | None = None
+    source: Source, fusion: dict[str, Any], spike_mask: bool, seconds: float, recording: Path | None = None
 ) -> Result:
-    """Read the source for ``seconds`` of host time, or until a file ends, or until Ctrl-C; record it if asked."""
+    """Read the source for ``seconds`` of host time, or until a file ends, or until Ctrl-C; record it if asked.
+
+    ``fusion``: filter_name, params and use_mag, as the session takes them.
+    """
     app = QCoreApplication.instance() or QCoreApplication([])
-    session = Session(filter_name, use_mag=use_mag)
+    session = Session(**fusion)
+    session.set_spike_mask(spike_mask)
     interrupted: list[int] = []
     before = signal.signal(signal.SIGINT, lambda number, _: interrupted.append(number))
     session.message.connect(lambda _, text: print(text, file=sys.stderr))  # noqa: T201
