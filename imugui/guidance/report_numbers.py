@@ -89,6 +89,13 @@ def signed(angle_deg: float, positive: str, negative: str) -> str:
     return f"{abs(angle_deg):.1f}° {negative if angle_deg < 0.0 else positive}"
 
 
+MEASURED = (
+    "steadiness_deg_s", "time_to_green_s", "time_in_green_s", "duration_s", "overshoots", "heading_age_s",
+    "heading_sigma_deg",
+)  # fmt: skip
+"""Columns that a reading holds under the same name."""
+
+
 def values(reading: Reading) -> dict[str, str | int | float]:
     """One row of the CSV, by column: SI or the unit in the name; NaN for what is not known."""
     plan = reading.plan
@@ -112,13 +119,7 @@ def values(reading: Reading) -> dict[str, str | int | float]:
         "twist_deg": reading.twist_deg,
         "depth_mm": plan.depth_mm,
         "miss_mm": miss_mm(reading),
-        "steadiness_deg_s": reading.steadiness_deg_s,
-        "time_to_green_s": reading.time_to_green_s,
-        "time_in_green_s": reading.time_in_green_s,
-        "duration_s": reading.duration_s,
-        "overshoots": reading.overshoots,
-        "heading_age_s": reading.heading_age_s,
-        "heading_sigma_deg": reading.heading_sigma_deg,
+        **{name: getattr(reading, name) for name in MEASURED},
         "heading_sigma_from": reading.heading_from,
         "frame": FRAME,
         **{f"{name}_{axis}": vector[k] for name, vector in vectors.items() for k, axis in enumerate(FRAME.lower())},

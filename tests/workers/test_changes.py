@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,9 @@ def started() -> Event:
 
 
 def test_what_was_recorded_can_be_done_again(started: Event) -> None:
+    before = deepcopy(started.data)
     rehearse(started, [started, Event("origin", 1.1, 10, "set", {"quat": (1.0, 0.0, 0.0, 0.0)})])
+    assert started.data == before
 
 
 @pytest.mark.parametrize("spoiled", [[1.0], [0.0] * 7, [None] * 6, "north"])
