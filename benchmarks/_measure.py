@@ -10,9 +10,13 @@ import resource
 import statistics
 import time
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 Clock = Callable[[], float]
+
+BROAD = Path(__file__).resolve().parents[2] / "shared" / "data" / "broad"
+"""BROAD's trials as .npz, beside the checkout; they are not part of the repository."""
 
 
 def interleaved(

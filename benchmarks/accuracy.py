@@ -4,14 +4,13 @@ Total, heading and inclination as the data set defines them: root mean square ov
 mean over the trials, one parameter set for all. Peers that are not installed are left out, and said so.
 D. Laidig et al., BROAD, Data 6(7):72, 2021, doi:10.3390/data6070072.
 
-    python3 run.py bench accuracy --data FOLDER
+    python3 run.py bench accuracy [--data FOLDER]
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
-import os
 import sys
 import time
 from collections.abc import Callable
@@ -19,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from _measure import line, note
+from _measure import BROAD, line, note
 from numpy.typing import NDArray
 
 from imugui.fusion import FILTERS
@@ -110,10 +109,10 @@ PEERS = {"vqf": bare_vqf, "imufusion": bare_imufusion, "ahrs": bare_ahrs}
 
 def main() -> int:
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--data", type=Path, default=Path(os.environ.get("BROAD_DATA", "data/broad")))
+    arguments.add_argument("--data", type=Path, default=BROAD, help="folder with BROAD's trials as .npz")
     paths = sorted(arguments.parse_args().data.glob("*.npz"))
     if not paths:
-        note("accuracy", "no BROAD trials here: give their folder with --data or BROAD_DATA")
+        note("accuracy", "no BROAD trials here: give their folder with --data")
         return 0
     trials = [load(path) for path in paths]
     missing = [name for name in PEERS if importlib.util.find_spec(name) is None]

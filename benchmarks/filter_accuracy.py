@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from _measure import BROAD
 
 from imugui.fusion import quaternion as qt
 from imugui.fusion.imugui_filter import Imugui
@@ -34,9 +35,8 @@ from imugui.simulation.motions import MOTIONS
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE.parent / "docs" / "filter.md"
-DATA = HERE.parent.parent / "shared" / "data" / "broad"
 ERRORS = replace(PRESETS["mpu9250-calibrated"], gyr_scale_percent=3.0, gyr_cross_percent=1.75)
-BROAD = ImuguiParams(gyr_latency_ms=2.4, mag_latency_ms=14.0)  # of that hardware, measured with its optics
+DELAYS = ImuguiParams(gyr_latency_ms=2.4, mag_latency_ms=14.0)  # of that hardware, measured with its optics
 RATES = (25.0, 100.0, 200.0, 1000.0)
 SECONDS = 60.0
 DRAGS = 60  # a second each, for the board that waits for a hand
@@ -80,7 +80,7 @@ def broad(folder: Path) -> Iterator[Figures]:
     for path in sorted(folder.glob("*.npz")):
         rows, truth, counted = trial_rows(path)
         figures: Figures = {"benchmark": "filter_broad", "trial": path.stem}
-        for name, params in (("known", BROAD), ("unknown", None), ("vqf", None)):
+        for name, params in (("known", DELAYS), ("unknown", None), ("vqf", None)):
             pipeline = Pipeline("vqf" if name == "vqf" else "imugui", params)
             began = time.process_time()
             out = pipeline.step(rows)
@@ -224,7 +224,7 @@ def page(text: str, trials: list[Figures], runs: list[Figures], life: Figures | 
 
 def main() -> int:
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--data", type=Path, default=DATA, help="folder with BROAD's trials as .npz")
+    arguments.add_argument("--data", type=Path, default=BROAD, help="folder with BROAD's trials as .npz")
     arguments.add_argument("--seeds", type=int, default=2)
     arguments.add_argument("--runs", type=int, default=0, help="of the search for divergence; 1000 take half an hour")
     arguments.add_argument("--write", action="store_true")
