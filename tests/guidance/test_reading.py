@@ -115,6 +115,8 @@ def test_the_plan_of_a_file_is_checked() -> None:
         plan_from({"name": "L4", "side": "left", "axial_deg": "steep"})
     with pytest.raises(ValueError, match="table"):
         plan_from([1, 2])
+    with pytest.raises(ValueError, match="cannot be -inf"):
+        plan_from({"name": "L4", "side": "left", "yaw_deg": -math.inf})
 
 
 def test_the_mean_direction_is_a_unit_vector_in_the_patients_frame() -> None:
