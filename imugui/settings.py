@@ -17,6 +17,7 @@ from typing import Any
 
 from imugui.fields import field, from_mapping
 from imugui.paths import replace_file
+from imugui.texts import from_json
 
 FILE_NAME = "settings.json"
 MARK, VERSION = "imugui_settings", 1
@@ -80,7 +81,7 @@ def load(path: Path) -> tuple[Store, list[str]]:
         return Store(), [f"The settings could not be read ({error}); the defaults are used.", *_set_aside(path)]
     try:
         # what is no number is no value, so that what was read can be written again
-        values = json.loads(text, parse_constant=lambda _: None, parse_float=_finite)
+        values = from_json(text, parse_constant=lambda _: None, parse_float=_finite)
     except (ValueError, RecursionError):
         return Store(), ["The settings file is not valid JSON; the defaults are used.", *_set_aside(path)]
     if not isinstance(values, dict):

@@ -17,7 +17,7 @@ import pytest
 REPOSITORY = Path(__file__).resolve().parent.parent
 NO_QT_BELOW = 3
 RANKS = {
-    **dict.fromkeys(("__init__", "samples", "ring", "paths", "fields", "lazy"), 0),
+    **dict.fromkeys(("__init__", "samples", "ring", "paths", "fields", "lazy", "texts"), 0),
     "fusion": 1,
     **dict.fromkeys(
         ("formats", "recording", "settings", "signals", "calibration", "guidance", "targeting", "simulation"), 2

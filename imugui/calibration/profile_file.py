@@ -11,6 +11,7 @@ from imugui import __version__
 from imugui.calibration.parts import NAN, PARTS, Part
 from imugui.calibration.profile import Board, Profile
 from imugui.paths import replace_file
+from imugui.texts import from_json
 
 VERSION = 2
 ADDED = {"gyroscope": ("matrix_sigma", "matrix_date", "matrix_temp_c")}
@@ -37,7 +38,7 @@ def to_text(profile: Profile) -> str:
 def from_text(text: str) -> Profile:
     """The profile in a JSON text; ProfileError when it holds none that can be used. Unknown keys are ignored."""
     try:
-        values = json.loads(text)
+        values = from_json(text)
     except (ValueError, RecursionError):
         raise ProfileError("not valid JSON: the file is broken or cut short") from None
     if not isinstance(values, dict) or MARK not in values:

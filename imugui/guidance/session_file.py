@@ -19,6 +19,7 @@ from imugui.guidance.reading import Reading, Vector, plain, plan_from, reading_f
 from imugui.guidance.registration import Registration
 from imugui.guidance.registration import from_dict as registration_from
 from imugui.paths import replace_file
+from imugui.texts import from_json
 
 MARK, VERSION = "imugui_guidance", 1
 LARGEST = 64 << 20
@@ -52,7 +53,7 @@ def to_text(kept: Kept) -> str:
 def from_text(text: str) -> tuple[Kept, list[str]]:
     """The session in a JSON text, and a sentence for each thing left out. ValueError: no session at all."""
     try:
-        values = json.loads(text)
+        values = from_json(text)
     except (ValueError, RecursionError):
         raise ValueError("it is not valid JSON: broken or cut short") from None
     if not isinstance(values, dict) or type(values.get(MARK)) is not int:

@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from imugui.texts import from_json
+
 KINDS = (
     "start",  # what the filter and the clock knew when recording began
     "connect",
@@ -57,7 +59,7 @@ def from_lines(lines: Iterable[str]) -> tuple[list[Event], int]:
 
 def _from_line(line: str) -> Event | None:
     try:
-        values = json.loads(line)
+        values = from_json(line)
         event = Event(
             str(values["kind"]), float(values["t"]), int(values["sample"]), str(values["text"]), dict(values["data"])
         )

@@ -30,6 +30,7 @@ from imugui.recording.csv_files import ATTITUDE_COLUMNS, Watch, chunks_of
 from imugui.recording.events import Event, from_lines, to_line
 from imugui.recording.raw import Chunk, pack
 from imugui.samples import Rows
+from imugui.texts import from_json
 
 VERSION = 1
 ABOUT, SAMPLES, ATTITUDE, EVENTS, RAW = "about.json", "samples.csv", "attitude.csv", "events.jsonl", "raw.bin"
@@ -156,7 +157,7 @@ def read_about(recording: Path) -> dict[str, Any]:
     try:
         if path.stat().st_size > LARGEST_JSON:
             raise UnreadableError(f"{path}: too large to be a recording's description")
-        about = json.loads(path.read_text(encoding="utf-8"))
+        about = from_json(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise UnreadableError(f"{path.parent}: not a recording (it has no {ABOUT})") from None
     except (OSError, ValueError, RecursionError) as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from imugui.recording.base import SUFFIX
 from imugui.recording.folder import ABOUT, LARGEST_JSON, SAMPLES
+from imugui.texts import from_json
 
 COLUMNS = 160  # of the preview
 WHOLE_BYTES = 64_000_000  # a larger file is looked at in places
@@ -76,7 +76,7 @@ def summarise(path: Path) -> Summary:
 def _about(path: Path) -> dict[str, Any]:
     if path.stat().st_size > LARGEST_JSON:
         raise ValueError("its description is too large")
-    about = json.loads(path.read_text(encoding="utf-8"))
+    about = from_json(path.read_text(encoding="utf-8"))
     if not isinstance(about, dict):
         raise ValueError("its description is damaged")
     return about

@@ -26,6 +26,7 @@ from imugui.targeting.questionnaires import SUS, TLX, Answer
 from imugui.targeting.study_files import append, read_text, set_aside
 from imugui.targeting.study_plan import StudyPlan, as_mapping, plan_from
 from imugui.targeting.trials import COLUMNS, Trial, csv_line, read_trials, trial_line
+from imugui.texts import from_json
 
 MARK, VERSION = "imugui_study", 1
 PLAN, COPY, TRIALS, ANSWERS = "study.json", "study.copy.json", "trials.csv", "answers.csv"
@@ -177,7 +178,7 @@ def _load_plan(folder: Path) -> tuple[StudyPlan, list[str]]:
 
 def _plan_of(text: str) -> StudyPlan:
     try:
-        values = json.loads(text)
+        values = from_json(text)
     except (ValueError, RecursionError):
         raise ValueError("it is no valid JSON, broken or cut short") from None
     if not isinstance(values, dict) or type(values.get(MARK)) is not int or not isinstance(values.get("plan"), dict):

@@ -12,6 +12,7 @@ from imugui.paths import replace_file
 from imugui.targeting.settings import Control
 from imugui.targeting.study_files import read_text
 from imugui.targeting.tasks import Task
+from imugui.texts import from_json
 
 FILE_NAME = "targeting.json"
 ENDOSCOPE, PLAIN = "endoscope", "plain"
@@ -46,7 +47,7 @@ class Kept:
 def load(path: Path) -> tuple[Kept, list[str]]:
     """Read the file; returns what it keeps and one sentence for each thing that was not taken."""
     try:
-        values = json.loads(read_text(path))
+        values = from_json(read_text(path))
     except FileNotFoundError:
         return Kept(), []
     except (OSError, ValueError, RecursionError) as error:
