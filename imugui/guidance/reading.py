@@ -208,9 +208,11 @@ def _number_or(value: Any, default: Any) -> Any:
     """A plan's number, open (NaN) for null; ValueError for one without end, also where the plan has no use for it."""
     if isinstance(value, float) and math.isinf(value):
         raise ValueError(f"A plan's number cannot be {value}.")
-    if type(default) is float:
-        return NAN if value is None else float(value) if _is_number(value) else value
-    return value
+    if type(default) is not float:
+        return value
+    if value is None or value != value:
+        return NAN  # one and the same, so that plans compare equal
+    return float(value) if _is_number(value) else value
 
 
 def _is_number(value: Any) -> bool:
