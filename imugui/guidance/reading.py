@@ -20,6 +20,7 @@ from imugui.guidance.registration import from_dict as registration_from
 NAN = math.nan
 Vector = tuple[float, float, float]
 LONGEST_TEXT = 400
+LARGEST_NUMBER = 1e12  # in any unit of a reading; what is larger overflows where it is squared
 
 
 @dataclass(frozen=True)
@@ -216,4 +217,4 @@ def _number_or(value: Any, default: Any) -> Any:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER

@@ -47,6 +47,7 @@ def test_unknown_keys_are_ignored_and_open_values_may_be_missing(reading: Readin
         ({"direction": [0.0, 1.0, 0.0]}, "directions are"),
         ({"error_deg": 0.1}, "directions are"),
         ({"error_deg": None}, "error_deg must be a number"),
+        ({"cranial_deg": 1e200}, "cranial_deg must be a number"),
         ({"number": -1}, "whole number"),
         ({"number": True}, "whole number"),
         ({"rows": [9, 4]}, "first and the last"),
