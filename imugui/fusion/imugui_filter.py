@@ -30,6 +30,7 @@ from imugui.fusion.self_calibrating_block import Block
 from imugui.fusion.self_calibrating_guard import Guard
 from imugui.fusion.self_calibrating_params import ImuguiParams
 from imugui.fusion.self_calibrating_start import SETTLED, Start, as_quat
+from imugui.fusion.self_calibrating_steps import BIAS, MATRIX
 from imugui.samples import GRAVITY
 
 BLOCK_S = 0.048  # s; a block ends with the sample nearest to it: after 40 to 50 ms at all usual rates
@@ -197,7 +198,18 @@ class Imugui:
     @property
     def matrix_sigma(self) -> float:
         """1 sigma of the worst known element of the learnt matrix."""
-        return float(np.sqrt(self._estimator.p.diagonal()[12:21].max()))
+        return float(np.sqrt(self._estimator.p.diagonal()[MATRIX].max()))
+
+    @property
+    def first_sigma(self) -> float:
+        """What that was at first: as set, or widened since."""
+        return self._estimator.matrix_sigma
+
+    @property
+    def bias_sigma(self) -> Vector:
+        """1 sigma of the learnt bias, rad/s."""
+        x, y, z = np.sqrt(np.maximum(self._estimator.p.diagonal()[BIAS], 0.0)).tolist()
+        return x, y, z
 
     @property
     def delay(self) -> float:

@@ -10,9 +10,8 @@ import numpy as np
 
 from imugui.calibration.learnt import Clipping, Learnt, refusal
 from imugui.calibration.profile import Profile
-from imugui.fusion.correction import Correction, Matrix, Vector
+from imugui.fusion.correction import Correction
 from imugui.fusion.pipeline import Pipeline
-from imugui.fusion.self_calibrating_steps import BIAS
 from imugui.samples import Rows
 from imugui.workers.fusion_worker import FusionWorker
 
@@ -99,25 +98,14 @@ class Learning:
         """In the fusion thread: what the filter knows."""
         if learns(pipeline):
             known: Any = pipeline.filter
-            estimator = known.state()["_estimator"]
-            variance = np.diagonal(np.array(estimator["p"]))[BIAS]
+            first, second, third = (tuple(row) for row in known.matrix.tolist())
             self._seen = Learnt(
                 pipeline.correction,
-                _matrix(known.matrix),
+                (first, second, third),
                 known.bias,
                 known.matrix_sigma,
-                estimator["matrix_sigma"],
-                _vector(np.sqrt(np.maximum(variance, 0.0))),
+                known.first_sigma,
+                known.bias_sigma,
                 known.note,
             )
         self._asked = False
-
-
-def _matrix(values: Any) -> Matrix:
-    first, second, third = map(_vector, values)
-    return first, second, third
-
-
-def _vector(values: Any) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z

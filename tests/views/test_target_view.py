@@ -66,6 +66,22 @@ def until(page: TargetView, qtbot: QtBot, true: Callable[[], bool]) -> None:
     qtbot.waitUntil(look)
 
 
+@pytest.fixture
+def in_window(
+    session: Session, settings_store: SettingsStore, shown: Show, qtbot: QtBot
+) -> tuple[MainWindow, TargetView]:
+    """The page in front of the whole window, with a board that waits for a hand."""
+    window = shown(MainWindow(session, settings_store))
+    window.show_page("target")
+    page = window.page()
+    assert isinstance(page, TargetView)
+    page.frame.play.control.set_value(PATIENT)
+    session.connect_to(Source("simulator", "hand"))
+    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING)
+    page.slow_refresh()
+    return window, page
+
+
 def begin(page: TargetView, qtbot: QtBot) -> GameLook:
     """Start a run with Enter, and wait until it is armed."""
     page.frame.scene.setFocus()
@@ -173,17 +189,8 @@ def test_a_latched_mapping_goes_on_without_a_key(live: TargetView, qtbot: QtBot)
     until(live, qtbot, lambda: live.desk.look.mode == "")
 
 
-def test_escape_stops_wherever_the_focus_is(
-    session: Session, settings_store: SettingsStore, shown: Show, qtbot: QtBot
-) -> None:
-    window = shown(MainWindow(session, settings_store))
-    window.show_page("target")
-    page = window.page()
-    assert isinstance(page, TargetView)
-    page.frame.play.control.set_value(PATIENT)
-    session.connect_to(Source("simulator", "hand"))
-    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING)
-    page.slow_refresh()
+def test_escape_stops_wherever_the_focus_is(in_window: tuple[MainWindow, TargetView], qtbot: QtBot) -> None:
+    window, page = in_window
     for focus in (page.frame.scene, page.frame.run.leave_button, window.bar.button):
         begin(page, qtbot)
         focus.setFocus()
@@ -198,17 +205,8 @@ def test_escape_stops_wherever_the_focus_is(
         page.leave()
 
 
-def test_another_page_in_front_disarms(
-    session: Session, settings_store: SettingsStore, shown: Show, qtbot: QtBot
-) -> None:
-    window = shown(MainWindow(session, settings_store))
-    window.show_page("target")
-    page = window.page()
-    assert isinstance(page, TargetView)
-    page.frame.play.control.set_value(PATIENT)
-    session.connect_to(Source("simulator", "hand"))
-    qtbot.waitUntil(lambda: session.status().state is LinkState.STREAMING)
-    page.slow_refresh()
+def test_another_page_in_front_disarms(in_window: tuple[MainWindow, TargetView], qtbot: QtBot) -> None:
+    window, page = in_window
     begin(page, qtbot)
     window.show_page("live")
     until(page, qtbot, lambda: state(page) is State.DISARMED)
