@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QTimer
 
 from imugui.recording.folder import EVENTS
 from imugui.ring import Ring
@@ -37,16 +38,27 @@ def session(qtbot) -> Iterator[Session]:
     one.close()
 
 
+def press_again(player: GameWorker) -> None:
+    """A busy machine lets the input go stale, which holds the view until the button is pressed anew."""
+    if player.look is not None and player.look.state is State.HOLD:
+        player.hand("release", "pan")
+        player.hand("press", "pan")
+
+
 @pytest.fixture
 def recorded(session: Session, tmp_path: Path, qtbot) -> Path:
     folder = tmp_path / "played.imugui"
     assert session.record(folder)
     qtbot.waitUntil(lambda: session.recording.rows > 0)
     player = session.game
+    again = QTimer()
+    again.timeout.connect(lambda: press_again(player))
     with qtbot.waitSignal(player.run_done, timeout=30_000):
         player.play(game(EASY))
         player.hand("confirm")
         player.hand("press", "pan")
+        again.start(20)
+    again.stop()
     count = session.attitude.count
     qtbot.waitUntil(lambda: session.attitude.count > count + 200)
     session.stop_recording()
